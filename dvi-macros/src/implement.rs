@@ -26,7 +26,7 @@ mod state;
 pub(crate) use degenerate::degenerate;
 use document::Account;
 pub(crate) use regular::regular;
-pub(crate) use state::{Names, State, state};
+pub(crate) use state::{State, names, state};
 
 /// A function of this many instructions at most is inlined wherever it is called.
 const SHORT: usize = 128;
@@ -147,9 +147,7 @@ fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStr
 
 /// What stands in each trait by which a method asks for a kind of systems.
 pub(crate) fn suited() -> TokenStream {
-    quote!(
-        type Suited<__M> = __M;
-    )
+    quote! { type Suited<__M> = __M; }
 }
 
 /// The type that says what kind of Lagrangian it is.
@@ -223,22 +221,13 @@ fn configuration(
     let forced = programs.forces.is_some();
     let autonomous = !programs.depends_on_time(emitter.graph);
     let has_scalar_fields = !emitter.model.scalar_fields.is_empty();
-    let has_domain = programs.domain.is_some().then(|| {
-        quote!(
-            const HAS_DOMAIN: ::core::primitive::bool = true;
-        )
-    });
+    let has_domain = programs.domain.as_ref();
+    let has_domain = has_domain.map(|_| quote! { const HAS_DOMAIN: ::core::primitive::bool = true; });
     let count = programs.seams.len();
-    let seams = (count > 0).then(|| {
-        quote!(
-            const SEAMS: ::core::primitive::usize = #count;
-        )
-    });
+    let seams = (count > 0).then(|| quote! { const SEAMS: ::core::primitive::usize = #count; });
     let constrained = programs.constraints.as_ref().map(|constraints| constraints.of);
-    let (check, kind) = (
-        check::check(emitter, programs),
-        kind(krate, emitter.model.kind, constrained, emitter.model.is_on_manifold()),
-    );
+    let check = check::check(emitter, programs);
+    let kind = kind(krate, model.kind, constrained, model.is_on_manifold());
     let held = held(krate, model.named());
     let items = quote! {
         type Space = #space;

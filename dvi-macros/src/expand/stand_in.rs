@@ -5,11 +5,11 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use syn::{GenericParam, Generics, Path, Visibility};
+use syn::{Generics, Path, Visibility};
 
 use crate::emit::Emitter;
 use crate::errors::Errors;
-use crate::implement::{self, Names, State};
+use crate::implement::{self, State};
 use crate::syntax::{Constrained, Kind};
 
 /// A type that takes the place of a system.
@@ -79,7 +79,13 @@ impl StandIn<'_> {
         let system = implement::of_type(krate, *of, &quote!(System), &items);
         let bare = |implemented, items| implement::over(krate, *of, of.1, &implemented, &items);
         let stand_in = bare(quote!(__private::StandIn), implement::suited());
-        let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
+        let time_transformed = self.time_transformed.then(|| {
+            let mut generics = of.1.clone();
+            generics.params.push(syn::parse_quote!(__T: #krate::Scalar));
+            let items =
+                quote!(fn time_transform_at(&self, _: &[__T]) -> #krate::system::TimeTransform<__T> #never);
+            implement::over(krate, *of, &generics, &quote!(TimeTransformed<__T>), &items)
+        });
         let constrained = (is_regular && self.constrained.is_some()).then(|| {
             let items = quote! {
                 type Multipliers = #krate::Fixed<1usize, 1usize>;
@@ -98,16 +104,6 @@ impl StandIn<'_> {
         });
         quote!(const _: () = { #held #system #stand_in #time_transformed #constrained #manifold };)
     }
-
-    /// The trait that systems have with a time transformation only.
-    fn time_transformed(&self, never: &TokenStream) -> TokenStream {
-        let Self { of, krate, .. } = self;
-        let mut generics = of.1.clone();
-        generics.params.push(syn::parse_quote!(__T: #krate::Scalar));
-        let items =
-            quote!(fn time_transform_at(&self, _: &[__T]) -> #krate::system::TimeTransform<__T> #never);
-        implement::over(krate, *of, &generics, &quote!(TimeTransformed<__T>), &items)
-    }
 }
 
 /// A state whose coordinates are not known: a type that the compiler takes for anything.
@@ -124,11 +120,8 @@ fn lost_state(
     (system, generics): (&Ident, &Generics),
     errors: &mut Errors,
 ) -> (TokenStream, TokenStream, TokenStream) {
-    let Names { state: name, of_f64 } = Names::of(system);
-    let constants = generics.params.iter().filter_map(|parameter| match parameter {
-        GenericParam::Const(constant) => Some((&constant.ident, &constant.ty)),
-        _ => None,
-    });
+    let [name, of_f64] = implement::names(system);
+    let constants = generics.const_params().map(|constant| (&constant.ident, &constant.ty));
     let (constants, types): (Vec<_>, Vec<_>) = constants.unzip();
     let (error, allow) = (errors.take_first(), implement::allow());
     let item = quote! {

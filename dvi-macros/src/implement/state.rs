@@ -2,8 +2,8 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
+use syn::Ident;
 use syn::ext::IdentExt as _;
-use syn::{GenericParam, Ident};
 
 use crate::emit::{Emitter, local};
 use crate::model::{Block, Grid, Model};
@@ -94,7 +94,7 @@ fn dimension(emitter: &Emitter<'_>, sizes: &[Count]) -> TokenStream {
 
 pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let (model, krate) = (emitter.model, emitter.krate());
-    let Names { state: name, of_f64 } = Names::of(&model.item.ident);
+    let [name, of_f64] = names(&model.item.ident);
     let visibility = &model.item.vis;
     let constants = constants(emitter);
     let declarations = constants.iter().map(|name| quote!(const #name: ::core::primitive::usize));
@@ -178,15 +178,8 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
 }
 
 /// The names of states: in numbers of any type, and in `f64`, which a literal needs no annotation for.
-pub(crate) struct Names {
-    pub(crate) state: Ident,
-    pub(crate) of_f64: Ident,
-}
-
-impl Names {
-    pub(crate) fn of(system: &Ident) -> Self {
-        Self { state: format_ident!("{system}StateOf"), of_f64: format_ident!("{system}State") }
-    }
+pub(crate) fn names(system: &Ident) -> [Ident; 2] {
+    [format_ident!("{system}StateOf"), format_ident!("{system}State")]
 }
 
 /// The fields with their documentation: all coordinates, then all velocities if there are any.
@@ -271,11 +264,7 @@ fn constants(emitter: &Emitter<'_>) -> Vec<Ident> {
             })
         })
     };
-    let names = model.item.generics.params.iter().filter_map(|parameter| match parameter {
-        GenericParam::Const(constant) => Some(constant.ident.clone()),
-        _ => None,
-    });
-    names.filter(used).collect()
+    model.item.generics.const_params().map(|constant| constant.ident.clone()).filter(used).collect()
 }
 
 /// A local name: that of the field may be the name of a constant, which is no place to bind to.

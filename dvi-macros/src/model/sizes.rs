@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
-use syn::{BinOp, Expr, ExprLit, GenericParam, Ident, Lit, Member, Type};
+use syn::{BinOp, Expr, ExprLit, Ident, Lit, Member, Type};
 
 use super::shape::{Shape, plain, shape};
 use super::{Model, ParameterName, SizeName};
@@ -91,16 +91,10 @@ impl Model {
 
     /// A const generic or a field of type `usize`.
     pub(crate) fn named_size(&mut self, name: &str) -> Option<Index> {
-        let generic = self.item.generics.params.iter().find_map(|parameter| match parameter {
-            GenericParam::Const(constant)
-                if constant.ident == name && shape(&constant.ty) == Shape::Count =>
-            {
-                Some(constant.ident.clone())
-            }
-            _ => None,
-        });
-        if let Some(ident) = generic {
-            return Some(self.intern_size(name.to_string(), ident.to_token_stream(), true));
+        let mut generics = self.item.generics.const_params();
+        if let Some(known) = generics.find(|known| known.ident == name && shape(&known.ty) == Shape::Count) {
+            let tokens = known.ident.to_token_stream();
+            return Some(self.intern_size(name.to_string(), tokens, true));
         }
         let field = self.parameters.iter().find(|p| p.text == name && p.shape == Shape::Count)?;
         let tokens = field.tokens.clone();
@@ -168,11 +162,9 @@ impl Model {
     }
 
     fn is_generic(&self, name: &Ident) -> bool {
-        self.item.generics.params.iter().any(|parameter| match parameter {
-            GenericParam::Const(constant) => constant.ident == *name,
-            GenericParam::Type(ty) => ty.ident == *name,
-            GenericParam::Lifetime(_) => false,
-        })
+        let generics = &self.item.generics;
+        let types = generics.type_params().map(|ty| &ty.ident);
+        types.chain(generics.const_params().map(|constant| &constant.ident)).any(|known| known == name)
     }
 
     /// A sum of multiples of sizes as an expression of type `usize`, the largest one beyond all; no
