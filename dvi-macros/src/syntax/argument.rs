@@ -44,11 +44,7 @@ impl Argument {
             } else if name == "force" {
                 return Err(input.error("a force is written `force(x) = …`"));
             } else if let Some(of) = Constrained::named(&name.to_string()) {
-                return Err(input.error(format!(
-                    "a family of {} is written {}",
-                    of.words().nouns[1],
-                    of.family()
-                )));
+                return Err(input.error(of.no_family()));
             } else {
                 return Err(input.error("expected `,`"));
             }

@@ -107,8 +107,13 @@ impl Constrained {
     }
 
     /// How a family is written.
-    pub(super) fn family(self) -> String {
+    fn family(self) -> String {
         format!("`{}(i in 0..n) = {}(i)`", self.words().word, self.words().letter)
+    }
+
+    /// What is said of a family that is not.
+    pub(super) fn no_family(self) -> String {
+        format!("a family of {} is written {}", self.words().nouns[1], self.family())
     }
 
     /// How one of two indices is.
@@ -189,11 +194,9 @@ impl Attribute {
                 }
             }
             Value::AssignedTo { of: index, value, parentheses } => {
-                let family = if index.is_empty() {
-                    let message = format!("a family of {} is written {}", of.words().nouns[1], of.family());
-                    Err(syn::Error::new(parentheses, message))
-                } else {
-                    read_by(index, |input| family(input, of))
+                let family = match index.is_empty() {
+                    true => Err(syn::Error::new(parentheses, of.no_family())),
+                    false => read_by(index, |input| family(input, of)),
                 };
                 let formula = value_of(name, value, errors);
                 if let Some((family, formula)) = errors.taken(family).zip(formula) {
@@ -237,9 +240,8 @@ fn family(input: ParseStream<'_>, of: Constrained) -> syn::Result<Vec<Member>> {
 impl Member {
     fn parse(input: ParseStream<'_>, of: Constrained) -> syn::Result<Self> {
         let (form, Words { word, function, .. }) = (of.family(), of.words());
-        let advice = format!("a family of {} is written {form}", of.words().nouns[1]);
         let at = input.span();
-        let index: Ident = input.parse().map_err(|_| syn::Error::new(at, &advice))?;
+        let index: Ident = input.parse().map_err(|_| syn::Error::new(at, of.no_family()))?;
         if input.is_empty() {
             let message = format!(
                 "a {} is one of the whole system, not of `{index}` alone: write `{word} = {function}`; one for each value of an index \
@@ -249,12 +251,12 @@ impl Member {
             return Err(syn::Error::new(index.span(), message));
         }
         if !input.peek(Token![in]) {
-            return Err(input.error(advice));
+            return Err(input.error(of.no_family()));
         }
         input.parse::<Token![in]>()?;
         let range = expression(input)?;
         if !input.is_empty() && !input.peek(Token![,]) {
-            return Err(input.error(advice));
+            return Err(input.error(of.no_family()));
         }
         Ok(Self { index, range })
     }

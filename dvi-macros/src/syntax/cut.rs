@@ -19,16 +19,10 @@ pub(super) fn named(tokens: TokenStream, kind: &str, errors: &mut Errors) -> Vec
 }
 
 pub(super) fn list<T: Parse>(tokens: TokenStream, errors: &mut Errors, lost: &mut bool) -> Vec<T> {
-    let mut items = Vec::new();
-    for piece in split_at_commas(tokens) {
-        match read(piece) {
-            Ok(item) => items.push(item),
-            Err(error) => {
-                *lost = true;
-                errors.push_syn(error);
-            }
-        }
-    }
+    let before = errors.count();
+    let pieces = split_at_commas(tokens).into_iter();
+    let items = pieces.filter_map(|piece| errors.taken(read(piece))).collect();
+    *lost |= errors.count() > before;
     items
 }
 
