@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use syn::spanned::Spanned;
-use syn::{Expr, Local, Path};
+use syn::{Expr, ExprArray, Local, Path};
 
 use crate::errors::{Errors, listed, nearest};
 
@@ -202,6 +202,30 @@ pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Erro
     attribute
 }
 
+/// The formulas of an attribute, but for those of constraints and what formulas share: to be read, or of one
+/// that is borrowed mutably, to be changed.
+macro_rules! formulas {
+    ($attribute:expr) => {{
+        let Attribute { one_form, hamiltonian, lagrangian, gauge, time_transform, .. } = $attribute;
+        let Attribute { dissipation, forces, momenta, events, .. } = $attribute;
+        let gauge = gauge.into_iter().filter_map(|gauge| match gauge {
+            Gauge::Formula(formula) => Some(formula),
+            Gauge::Auto(_) => None,
+        });
+        let rate = time_transform.into_iter().map(|TimeTransform { rate, .. }| rate);
+        let dynamics = one_form.into_iter().chain(hamiltonian).chain(lagrangian).chain(gauge);
+        let forces = forces.into_iter().flat_map(|force| {
+            let (components, formula) = match force {
+                Force::Components(ExprArray { elems, .. }) => (Some(elems), None),
+                Force::On(_, formula) => (None, Some(formula)),
+            };
+            components.into_iter().flatten().chain(formula)
+        });
+        let named = momenta.into_iter().chain(events).map(|Named { formula, .. }| formula);
+        dynamics.chain(rate).chain(dissipation).chain(forces).chain(named)
+    }};
+}
+
 impl Attribute {
     /// The formula that Ω comes from.
     pub(crate) fn symplectic_part(&self) -> Option<&Expr> {
@@ -223,43 +247,14 @@ impl Attribute {
 
     /// All formulas as they were written but for what they share, those of a family with its indices.
     pub(crate) fn scopes(&self) -> impl Iterator<Item = (&Expr, &[Member])> {
-        let rate = self.time_transform.as_ref().map(|transform| &transform.rate);
-        let dynamics = [
-            self.one_form.as_ref(),
-            self.hamiltonian.as_ref(),
-            self.lagrangian.as_ref(),
-            self.gauge(),
-            rate,
-            self.dissipation.as_ref(),
-        ];
-        let forces = self.forces.iter().flat_map(Force::formulas);
-        let named = self.momenta.iter().chain(&self.events).map(|named| &named.formula);
-        let constraints =
-            self.constraints.iter().map(|constraint| (&constraint.formula, constraint.family.as_slice()));
-        let others = dynamics.into_iter().flatten().chain(forces).chain(named);
-        others.map(|formula| (formula, [].as_slice())).chain(constraints)
+        let constraints = self.constraints.iter().map(|one| (&one.formula, one.family.as_slice()));
+        formulas!(self).map(|formula| (formula, [].as_slice())).chain(constraints)
     }
 
     /// All formulas, to be changed.
     fn formulas_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
-        let rate = self.time_transform.as_mut().map(|transform| &mut transform.rate);
-        let gauge = match &mut self.gauge {
-            Some(Gauge::Formula(formula)) => Some(formula),
-            Some(Gauge::Auto(_)) | None => None,
-        };
-        let dynamics = [
-            self.one_form.as_mut(),
-            self.hamiltonian.as_mut(),
-            self.lagrangian.as_mut(),
-            gauge,
-            rate,
-            self.dissipation.as_mut(),
-        ];
-        let forces = self.forces.iter_mut().flat_map(Force::formulas_mut);
-        let named = self.momenta.iter_mut().chain(&mut self.events).map(|named| &mut named.formula);
-        let constraints = self.constraints.iter_mut().map(|constraint| &mut constraint.formula);
-        let shared = Self::shared_values_mut(&mut self.shared);
-        shared.chain(dynamics.into_iter().flatten()).chain(forces).chain(named).chain(constraints)
+        let constraints = self.constraints.iter_mut().map(|one| &mut one.formula);
+        Self::shared_values_mut(&mut self.shared).chain(formulas!(self)).chain(constraints)
     }
 
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {

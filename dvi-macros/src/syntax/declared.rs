@@ -117,26 +117,6 @@ pub(crate) enum Force {
     On(Ident, Expr),
 }
 
-impl Force {
-    /// Its formulas as they were written.
-    pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expr> {
-        let (components, formula) = match self {
-            Self::Components(list) => (Some(&list.elems), None),
-            Self::On(_, formula) => (None, Some(formula)),
-        };
-        components.into_iter().flatten().chain(formula)
-    }
-
-    /// Its formulas, to be changed.
-    pub(super) fn formulas_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
-        let (components, formula) = match self {
-            Self::Components(list) => (Some(list.elems.iter_mut()), None),
-            Self::On(_, formula) => (None, Some(formula)),
-        };
-        components.into_iter().flatten().chain(formula)
-    }
-}
-
 impl Gauge {
     pub(super) fn new(formula: Expr) -> Self {
         let word = ident(&formula).filter(|word| **word == "auto").cloned();

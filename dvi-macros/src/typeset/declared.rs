@@ -10,20 +10,20 @@ pub(crate) fn declared(attribute: &Attribute, typesetter: &mut Typesetter) -> Ve
     let mut equations = Vec::new();
     let Attribute { one_form, hamiltonian, lagrangian, time_transform, dissipation, .. } = attribute;
     let rate = time_transform.as_ref().map(|transform| &transform.rate);
-    if let Some(Expr::Array(list)) = one_form {
-        equations.extend(components(attribute, r"\alpha", list, typesetter));
-    }
-    let one_form = one_form.as_ref().filter(|form| !matches!(form, Expr::Array(_)));
     let dynamics = [
         ("L", lagrangian.as_ref()),
-        (r"\alpha", one_form),
+        (r"\alpha", one_form.as_ref()),
         ("H", hamiltonian.as_ref()),
         ("F", attribute.gauge()),
         (r"\rho", rate),
         ("R", dissipation.as_ref()),
     ];
-    let dynamics = dynamics.into_iter().filter_map(|(name, formula)| Some((name, formula?)));
-    equations.extend(dynamics.map(|(name, formula)| typesetter.equation(name, formula)));
+    for (name, formula) in dynamics {
+        match formula {
+            Some(Expr::Array(list)) => equations.extend(components(attribute, name, list, typesetter)),
+            formula => equations.extend(formula.map(|formula| typesetter.equation(name, formula))),
+        }
+    }
     for force in &attribute.forces {
         match force {
             Force::Components(list) => equations.extend(components(attribute, "F", list, typesetter)),
