@@ -24,6 +24,13 @@ struct Entry {
     value: Expr,
 }
 
+impl Entry {
+    /// The blocks of its row and of its column.
+    fn blocks(&self) -> [usize; 2] {
+        [&self.row, &self.column].map(|coordinate| coordinate.block as usize)
+    }
+}
+
 /// Each entry once, without those that cancel.
 fn collected(graph: &mut Graph, entries: impl IntoIterator<Item = Entry>) -> Vec<Entry> {
     let mut collected: Vec<Entry> = Vec::new();

@@ -166,7 +166,7 @@ fn coupled(graph: &mut Graph, model: &Model, one_form: Expr) -> Vec<[usize; 2]> 
     let entries = graph.hessian(one_form);
     let mut coupled = Vec::new();
     for entry in omega(graph, &entries) {
-        let pair = [entry.row.block as usize, entry.column.block as usize];
+        let pair = entry.blocks();
         let are_single = pair.iter().all(|&block| model.blocks[block].array.is_none());
         let rest = graph.multiplied_out(&[entry.value]);
         if are_single && rest.is_some_and(|rest| !rest.is_zero()) && !graph.vanishes(&[entry.value]) {

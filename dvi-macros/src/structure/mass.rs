@@ -7,7 +7,7 @@ use super::{Entry, collected, has_matching};
 use crate::errors::{Errors, listed};
 use crate::formulas::RegularFormulas;
 use crate::model::{Block, Grid, Model};
-use crate::symbolic::{Coordinate, Expr, Graph, Id, Node, SecondContribution, Variable};
+use crate::symbolic::{Expr, Graph, Id, Node, SecondContribution, Variable};
 use crate::syntax::{Constrained, Factor, Kind};
 
 /// The structure of a regular L; see the constants of `dvi_core::NondegenerateLagrangian`.
@@ -46,7 +46,7 @@ impl MassMatrix {
         entries: &[SecondContribution],
     ) -> Self {
         let mass = mass_entries(graph, entries);
-        let block_of = |coordinate: &Coordinate| coordinate.block as usize;
+        let places: Vec<[usize; 2]> = mass.iter().map(Entry::blocks).collect();
         let depends_on = depends_on(graph, &mass);
         let diagonal = mass.iter().all(|entry| entry.row == entry.column);
         let uniform = formulas.quadratic && depends_on.is_empty();
@@ -55,16 +55,12 @@ impl MassMatrix {
             && is_still_at_rest(graph, formulas.lagrangian);
         let separable = constant && !formulas.force.iter().any(|part| graph.has_velocity(part.value.node));
         let mentioned = mentioned(graph, formulas.lagrangian);
-        let involved = |block: usize| {
-            mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
-        };
+        let involved = |block: usize| places.iter().any(|place| place.contains(&block));
         let massless = (0..model.blocks.len())
             .filter(|&block| !involved(block) && !model.blocks[block].is_without_velocity())
             .map(|block| (block, mentioned.contains(&block)));
         let massless: Vec<(usize, bool)> = massless.collect();
         let multipliers = multipliers(graph, entries, &massless);
-        let places: Vec<[usize; 2]> =
-            mass.iter().map(|entry| [block_of(&entry.row), block_of(&entry.column)]).collect();
         Self {
             separable,
             constant,

@@ -41,10 +41,14 @@ pub(super) fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<En
 
 /// The conjugate of each block, if Ω couples block to block, entry by entry, and Dα holds nothing else but
 /// entries on its diagonal.
-fn conjugates(model: &Model, omega: &[Entry], dalpha: &[(Coordinate, Coordinate)]) -> Option<Vec<usize>> {
+fn conjugates<T>(
+    model: &Model,
+    omega: &[Entry],
+    dalpha: &[(Coordinate, Coordinate, T)],
+) -> Option<Vec<usize>> {
     let mut conjugates: Vec<Option<usize>> = vec![None; model.blocks.len()];
     for entry in omega {
-        let (row, column) = (entry.row.block as usize, entry.column.block as usize);
+        let [row, column] = entry.blocks();
         if row == column || entry.row.index != entry.column.index || !covers(model, row, column, entry) {
             return None;
         }
@@ -57,7 +61,7 @@ fn conjugates(model: &Model, omega: &[Entry], dalpha: &[(Coordinate, Coordinate)
     }
     let conjugates: Vec<usize> = conjugates.into_iter().collect::<Option<_>>()?;
     // The same index on both sides: the diagonal of a block, or that between a block and its conjugate.
-    let belongs = |(i, j): &(Coordinate, Coordinate)| {
+    let belongs = |(i, j, _): &(Coordinate, Coordinate, T)| {
         i.index == j.index && (i.block == j.block || conjugates[i.block as usize] == j.block as usize)
     };
     dalpha.iter().all(belongs).then_some(conjugates)
@@ -90,26 +94,19 @@ impl OneForm {
     ) -> Self {
         let linear = entries.iter().all(|entry| !graph.depends(entry.value.node, Node::is_position))
             && !graph.depends(one_form.node, Node::is_time);
-        let places: Vec<(Coordinate, Coordinate)> =
-            dalpha(graph, entries).into_iter().map(|(i, j, _)| (i, j)).collect();
-        let diagonal = places.iter().any(|(i, j)| i.block == j.block);
+        let jacobian = dalpha(graph, entries);
+        let diagonal = jacobian.iter().any(|(i, j, _)| i.block == j.block);
         let omega = omega(graph, entries);
-        let touched = |block: usize| {
-            omega
-                .iter()
-                .any(|entry| entry.row.block as usize == block || entry.column.block as usize == block)
-        };
-        let untouched = (0..model.blocks.len()).filter(|block| !touched(*block)).collect();
-        let conjugates = conjugates(model, &omega, &places);
+        let places: Vec<[usize; 2]> = omega.iter().map(Entry::blocks).collect();
+        let touched = |block: &usize| places.iter().any(|place| place.contains(block));
+        let untouched = (0..model.blocks.len()).filter(|block| !touched(block)).collect();
+        let conjugates = conjugates(model, &omega, &jacobian);
         let canonical = conjugates.is_some();
         let matching = canonical && !diagonal;
         let conjugates = conjugates.unwrap_or_else(|| (0..model.blocks.len()).collect());
-        let places: Vec<[usize; 2]> =
-            omega.iter().map(|entry| [entry.row.block as usize, entry.column.block as usize]).collect();
         let invertible = has_matching(model, &places);
         let class =
             Class::new(graph, model, one_form).with_advice(graph, model, declared, declared != one_form);
-        let jacobian = dalpha(graph, entries);
         let bends_areas = jacobian.iter().any(|(i, _, entry)| {
             model.blocks[i.block as usize].is_spinor() && !is_constant(graph, entry.value.node)
         });

@@ -64,8 +64,7 @@ pub(super) fn is_numerically_singular(model: &Model, mass: &[Entry]) -> bool {
     // Each entry with the size of what it was added up from.
     let mut matrix = vec![vec![(0.0_f64, 0.0_f64); dimension]; dimension];
     for entry in mass {
-        let (row, column, value) =
-            (entry.row.block as usize, entry.column.block as usize, entry.value.scale);
+        let ([row, column], value) = (entry.blocks(), entry.value.scale);
         matrix[row][column] = (value, value.abs());
         matrix[column][row] = (value, value.abs());
     }
