@@ -21,18 +21,12 @@ fn system_without_mistakes(seed: u64) -> (Kind, TokenStream, TokenStream) {
                 functions(f = [f, df, d2f]),
                 crate = ::other::path,
             },
-            quote!(
-                pub(crate) struct System<'a> {
-                    gamma: &'a [f64],
-                }
-            ),
+            quote! { pub(crate) struct System<'a> { gamma: &'a [f64] } },
         ),
         1 => (
             Kind::Regular,
             quote!(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2), force(x) = -x),
-            quote!(
-                struct System;
-            ),
+            quote! { struct System; },
         ),
         _ => {
             let (kind, attribute, item) = random_system(seed);
@@ -167,13 +161,7 @@ fn expand_text(kind: Kind, attribute: String, item: String) -> String {
 }
 
 fn system() -> TokenStream {
-    quote!(
-        struct System {
-            gamma: Vec<f64>,
-            a: [f64; 3],
-            n: usize,
-        }
-    )
+    quote! { struct System { gamma: Vec<f64>, a: [f64; 3], n: usize } }
 }
 
 /// A formula as H and as part of L; the expansion of the former.

@@ -208,13 +208,7 @@ fn extreme_formulas_expand() {
     for formula in [nested, format!("{{ let a0 = x + y; {bindings} a59 }}"), small, powers] {
         let arguments = format!("coordinates(x, y), one_form = x * d(y), hamiltonian = {formula}");
         let attribute: TokenStream = arguments.parse().expect("tokens");
-        let expansion = degenerate_lagrangian(
-            attribute,
-            quote!(
-                struct System;
-            ),
-        )
-        .to_string();
+        let expansion = degenerate_lagrangian(attribute, quote! { struct System; }).to_string();
         assert!(!expansion.contains("compile_error"), "{formula}");
     }
 }

@@ -27,13 +27,7 @@ fn system(coordinates: &[String], terms: &[String]) -> u64 {
 fn steps(expand: fn(TokenStream, TokenStream) -> TokenStream, attribute: &str) -> u64 {
     let attribute = attribute.parse().expect("it is Rust");
     steps_of(|| {
-        let expansion = expand(
-            attribute,
-            quote!(
-                struct System;
-            ),
-        )
-        .to_string();
+        let expansion = expand(attribute, quote! { struct System; }).to_string();
         assert!(!expansion.contains("compile_error"), "{expansion}");
     })
 }

@@ -41,11 +41,7 @@ fn are_same(
 }
 
 fn with_size() -> TokenStream {
-    quote!(
-        struct Bodies<const N: usize> {
-            m: [f64; N],
-        }
-    )
+    quote! { struct Bodies<const N: usize> { m: [f64; N] } }
 }
 
 #[test]
@@ -97,11 +93,7 @@ fn vortices_in_the_plane() {
 /// With the sums over pairs that fast sums take.
 #[test]
 fn as_many_bodies_as_the_run_knows() {
-    let item = quote! {
-        struct Bodies {
-            m: Vec<f64>,
-        }
-    };
+    let item = quote! { struct Bodies { m: Vec<f64> } };
     are_same(
         lagrangian,
         &item,
