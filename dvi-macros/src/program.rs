@@ -79,7 +79,10 @@ impl Programs {
         let domain = domain(graph, lagrangian, force);
         Self {
             lagrangian: Routine::new(graph, result(lagrangian)),
-            forces: (!force.is_empty()).then(|| applied(graph, force)),
+            forces: (!force.is_empty()).then(|| {
+                let applied = statements(graph, force.clone(), Output::Vector, Output::Lv);
+                Routine::new(graph, applied)
+            }),
             constraints: constraints.map(|declared| Constraints::new(graph, declared)),
             probe: probe(graph, lagrangian, force, constraints.map_or(&[], |declared| &declared.list)),
             domain: (!domain.is_zero()).then(|| Routine::new(graph, result(domain))),
@@ -137,11 +140,6 @@ fn linearize(
         Statement { value, ..statement }
     }));
     statements
-}
-
-fn applied(graph: &mut Graph, force: &Force) -> Routine {
-    let applied = statements(graph, force.clone(), Output::Vector, Output::Lv);
-    Routine::new(graph, applied)
 }
 
 fn probe(graph: &mut Graph, lagrangian: Expr, force: &Force, constraints: &[Constraint]) -> Routine {

@@ -93,10 +93,11 @@ impl<'a> Account<'a> {
             let before = &constraints.lengths[..row.constraint as usize];
             together(emitter, before.iter().chain([&row.member]))
         };
-        let (letter, model) = (constraints.of.words().letter, emitter.model);
+        let (model, words) = (emitter.model, constraints.of.words());
+        let (letter, nouns) = (words.letter, words.nouns);
         for statement in &constraints.value.statements {
             let Place::Constraint(row) = &statement.place else { continue };
-            let name = format!("{} {letter}[{}]", constraints.of.words().nouns[0], number(row));
+            let name = format!("{} {letter}[{}]", nouns[0], number(row));
             self.formulas.push((name, in_loops(emitter, statement)));
         }
         for (variable, statement) in &constraints.derivatives {
@@ -109,7 +110,6 @@ impl<'a> Account<'a> {
         }
         let literals = constraints.lengths.iter().map(Count::as_literal);
         let literal = literals.sum::<Option<i64>>();
-        let nouns = constraints.of.words().nouns;
         let noun = if literal == Some(1) { nouns[0] } else { nouns[1] };
         // A range that ends before it begins has no members, which the sum of the lengths does not show.
         let may_end_early = constraints.lengths.iter().any(|length| !length.is_natural());
@@ -118,12 +118,10 @@ impl<'a> Account<'a> {
         let count = literal
             .map_or_else(|| together(emitter, constraints.lengths.iter()), |literal| literal.to_string());
         let adjective = match constraints.of {
-            Constrained::Positions | Constrained::Velocities => {
-                format!("{} ", constraints.of.words().adjective)
-            }
+            Constrained::Positions | Constrained::Velocities => format!("{} ", words.adjective),
             Constrained::Gaps => String::new(),
         };
-        let (function, relation) = (constraints.of.words().function, constraints.of.words().relation);
+        let (function, relation) = (words.function, words.relation);
         self.sentence(format!("{count} {adjective}{noun} {function} {relation}{condition}."));
     }
 

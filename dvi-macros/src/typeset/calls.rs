@@ -26,8 +26,7 @@ impl Typesetter {
             ("cbrt", [of]) => Tex::atom(format!(r"\sqrt[3]{{{}}}", of.text)),
             ("recip", [of]) => Tex::new(Strength::Product, format!(r"\frac{{1}}{{{}}}", of.text)),
             ("exp", [of]) => Tex::new(Strength::Function, format!(r"\mathrm{{e}}^{{{}}}", of.text)),
-            ("abs", [of]) => Tex::atom(format!(r"\left|{}\right|", of.text)),
-            ("norm", [of]) => Tex::atom(format!(r"\left|{}\right|", of.text)),
+            ("abs" | "norm" | "len", [of]) => Tex::atom(format!(r"\left|{}\right|", of.text)),
             ("norm_squared", [of]) => {
                 Tex::new(Strength::Function, format!(r"{{\left|{}\right|}}^{{2}}", of.text))
             }
@@ -44,7 +43,6 @@ impl Typesetter {
                 let [a, b] = [a, b].map(|part| part.within(Strength::Product));
                 Tex::new(Strength::Sum, format!(r"{a} \, {b} + {}", c.within(Strength::Product)))
             }
-            ("len", [of]) => Tex::atom(format!(r"\left|{}\right|", of.text)),
             _ => {
                 let renamed =
                     RENAMED.iter().find(|(known, _)| *known == name).map(|(_, sign)| (*sign).to_owned());
