@@ -17,11 +17,10 @@
 //! addition.
 
 use proc_macro2::{Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 use rustc_hash::FxHashSet as HashSet;
 use syn::{Ident, Path};
 
-use self::inlining::ForceInline;
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::model::Model;
 use crate::routine::Routine;
@@ -30,7 +29,6 @@ use crate::statement::{Output, Place};
 use crate::symbolic::{Coordinate, Fold, Graph, Loop, Node};
 
 mod indices;
-pub(crate) mod inlining;
 mod packs;
 mod pairs;
 mod values;
@@ -66,6 +64,17 @@ struct Function<'a> {
     is_part: bool,
     /// Whether it is inside of what is compiled for the widest instructions.
     is_wide: bool,
+}
+
+/// The attribute of functions that are a part of each step that calls them. Not in builds with debug
+/// assertions: there nothing is optimised as a rule, and a copy for each caller is work for the compiler that
+/// makes no step faster.
+pub(crate) struct ForceInline;
+
+impl ToTokens for ForceInline {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        tokens.extend(quote!(#[cfg_attr(not(debug_assertions), inline(always))]));
+    }
 }
 
 pub(crate) fn local(name: impl std::fmt::Display) -> Ident {
@@ -159,15 +168,6 @@ fn count_uses(
     used
 }
 
-impl Fold {
-    fn neutral(self) -> TokenStream {
-        match self {
-            Self::Sum => quote!(-0.0),
-            Self::Product => quote!(1.0),
-        }
-    }
-}
-
 impl Function<'_> {
     /// The leaf that a register is.
     fn leaf_of(&self, register: Register) -> Option<&Node> {
@@ -219,7 +219,11 @@ impl Function<'_> {
     fn begin(&self, folds: &[Accumulated]) -> TokenStream {
         let krate = self.emitter.krate();
         let begin = folds.iter().map(|Accumulated { fold, result, .. }| {
-            let (name, neutral) = (name(*result), fold.neutral());
+            let name = name(*result);
+            let neutral = match fold {
+                Fold::Sum => quote!(-0.0),
+                Fold::Product => quote!(1.0),
+            };
             quote!(let mut #name = <__T as #krate::Scalar>::lift(#neutral);)
         });
         quote!(#(#begin)*)

@@ -5,9 +5,9 @@ use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{Generics, Ident, Path, parse_quote};
 
-use crate::emit::inlining::ForceInline;
-use crate::emit::{Emitter, own_function, scalar_field};
-use crate::program::Programs;
+use crate::emit::{Emitter, ForceInline, own_function, scalar_field};
+use crate::program::{EventPrograms, Programs};
+use crate::routine::Routine;
 use crate::symbolic::Node;
 use crate::syntax::{Constrained, Kind};
 
@@ -15,7 +15,6 @@ mod check;
 mod constraints;
 mod degenerate;
 mod document;
-mod events;
 mod manifold;
 mod packable;
 mod pairs;
@@ -121,7 +120,8 @@ fn over_numbers(emitter: &Emitter<'_>) -> Generics {
     let (krate, model) = (emitter.krate(), emitter.model);
     let mut generics = model.item.generics.clone();
     generics.params.push(parse_quote!(__T: #krate::Scalar));
-    let mentioned = |field: usize| emitter.graph.mentions(|node| is_parameter(node, field));
+    let is_of = |field, node: &Node| matches!(node, Node::Parameter(known) if known.field as usize == field);
+    let mentioned = |field: usize| emitter.graph.mentions(|node| is_of(field, node));
     let types = model.parameters.iter().enumerate().filter(|(field, _)| mentioned(*field));
     for generic in types.filter_map(|(_, parameter)| parameter.generic.as_ref()) {
         generics.make_where_clause().predicates.push(parse_quote!(#generic: #krate::Parameter<__T>));
@@ -132,10 +132,6 @@ fn over_numbers(emitter: &Emitter<'_>) -> Generics {
         }
     }
     generics
-}
-
-fn is_parameter(node: &Node, field: usize) -> bool {
-    matches!(node, Node::Parameter(parameter) if parameter.field as usize == field)
 }
 
 /// The implementation of a trait, with its arguments, that a system has in all numbers `__T`.
@@ -288,9 +284,19 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             fn domain(&self, __q: &[__T], __t: __T) -> __T { #value }
         }
     });
-    let events = (!programs.events.is_empty()).then(|| events::events(emitter, &programs.events));
-    let seams = (!programs.seams.is_empty()).then(|| events::seams(emitter, &programs.seams));
-    let momenta = by_index(programs.momenta.iter().map(|value| emitter.value(value)), &nothing(krate));
+    let events = (!programs.events.is_empty()).then(|| events(emitter, &programs.events));
+    let by_number = |routines: &[Routine]| {
+        by_index(routines.iter().map(|routine| emitter.value(routine)), &nothing(krate))
+    };
+    let momenta = by_number(&programs.momenta);
+    let seams = (!programs.seams.is_empty()).then(|| {
+        let values = by_number(&programs.seams);
+        quote! {
+            fn seam(&self, __index: ::core::primitive::usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
+                #values
+            }
+        }
+    });
     let items = quote! {
             #[inline]
             fn lagrangian(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #value }
@@ -319,6 +325,29 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             #seams
     };
     in_numbers(emitter, &quote!(Lagrangian<__T>), &items)
+}
+
+/// `event` and `event_gradient` of `Lagrangian`.
+fn events(emitter: &Emitter<'_>, events: &[EventPrograms]) -> TokenStream {
+    let nothing = nothing(emitter.krate());
+    let values = by_index(events.iter().map(|event| emitter.value(&event.value)), &nothing);
+    let gradients = events.iter().map(|EventPrograms { gradient, by_time, .. }| {
+        let (gradient, by_time) = (emitter.gradient(gradient), emitter.value(by_time));
+        quote!({ #gradient } #by_time)
+    });
+    let gradients = by_index(gradients, &nothing);
+    quote! {
+        #[inline]
+        fn event(&self, __index: ::core::primitive::usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
+            #values
+        }
+        fn event_gradient(
+            &self, __index: ::core::primitive::usize, __q: &[__T], __v: &[__T], __t: __T,
+            __l_q: &mut [__T], __l_v: &mut [__T],
+        ) -> __T {
+            #gradients
+        }
+    }
 }
 
 /// The body of number `__index` among several, or `otherwise`.

@@ -6,7 +6,7 @@ use syn::Ident;
 
 use super::{Emitter, local};
 use crate::internal::internal;
-use crate::symbolic::{Atom, Count, Index, Loop, Range, Rows};
+use crate::symbolic::{Atom, Count, Index, Loop, Rows};
 
 pub(super) fn open(depth: u32) -> Ident {
     local(format_args!("i{depth}"))
@@ -88,7 +88,7 @@ impl Emitter<'_> {
                 quote!(#open)
             }
             Atom::Bound(_) => internal("an index outside of its sum"),
-            Atom::Size(size) => self.size(size.0),
+            Atom::Size(size) => self.model.sizes[size.0 as usize].tokens.clone(),
             Atom::Remainder(value, modulus) => {
                 let krate = self.krate();
                 let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
@@ -103,10 +103,6 @@ impl Emitter<'_> {
                 quote!((#length) * (#row))
             }
         }
-    }
-
-    pub(crate) fn size(&self, size: u32) -> TokenStream {
-        self.model.sizes[size as usize].tokens.clone()
     }
 
     /// An index as an expression of type `i64`.
@@ -145,18 +141,14 @@ impl Emitter<'_> {
         }
     }
 
-    fn range(&self, range: &Range) -> TokenStream {
-        let (lower, upper) = (self.range_bound(&range.lower), self.range_bound(&range.upper));
-        quote!((#lower)..(#upper))
-    }
-
     pub(crate) fn loop_over(&self, over: &Loop, body: &TokenStream) -> TokenStream {
-        let (index, range) = (open(over.depth), self.range(&over.range));
+        let index = open(over.depth);
+        let [lower, upper] = [&over.range.lower, &over.range.upper].map(|bound| self.range_bound(bound));
         let except = over.range.left_out().map(|except| {
             let except = self.index(except);
             quote!(if #index == #except { continue; })
         });
-        quote!(for #index in #range { #(#except)* #body })
+        quote!(for #index in (#lower)..(#upper) { #(#except)* #body })
     }
 
     /// Whether an index cannot leave 0..`length`, whatever the sizes are.

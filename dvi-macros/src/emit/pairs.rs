@@ -28,9 +28,8 @@ use quote::{ToTokens as _, quote};
 use syn::Ident;
 
 use super::indices::open;
-use super::inlining::ForceInline;
 use super::values::parameter_slice;
-use super::{Element, Function, added, local};
+use super::{Element, ForceInline, Function, added, local};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::schedule::{Accumulated, Step};
 use crate::symbolic::{Atom, Index, Loop, Node};

@@ -5,8 +5,7 @@ use quote::{format_ident, quote};
 
 use super::state::space_of;
 use super::{in_numbers, of_type, suited};
-use crate::emit::inlining::ForceInline;
-use crate::emit::{Emitter, constraint_members, first_constraint};
+use crate::emit::{Emitter, ForceInline, constraint_members, first_constraint};
 use crate::program::Constraints;
 use crate::routine::Routine;
 use crate::symbolic::Count;

@@ -5,8 +5,7 @@ use quote::quote;
 
 use super::state::space_of;
 use super::{in_numbers, of_type, suited};
-use crate::emit::Emitter;
-use crate::emit::inlining::ForceInline;
+use crate::emit::{Emitter, ForceInline};
 use crate::symbolic::{Count, Index};
 
 /// The implementations of `ManifoldSystem` and of `ManifoldLagrangian`.

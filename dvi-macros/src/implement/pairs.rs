@@ -4,8 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::in_numbers;
-use crate::emit::inlining::ForceInline;
-use crate::emit::{Emitter, local};
+use crate::emit::{Emitter, ForceInline, local};
 use crate::program::PairPrograms;
 
 pub(super) fn pairs(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {

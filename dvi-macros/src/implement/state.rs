@@ -34,13 +34,6 @@ const MOST_SINGLES: usize = 16;
 /// them.
 const FEW: usize = 12;
 
-/// The space of the coordinates.
-fn space(emitter: &Emitter<'_>) -> (TokenStream, TokenStream) {
-    let sizes: Vec<Count> =
-        (0..emitter.model.blocks.len()).map(|block| emitter.model.block_size(block).into()).collect();
-    space_of(emitter, &sizes)
-}
-
 /// The space of as many numbers as these sizes are together, each of which is zero where it is negative: its
 /// type and its value. Fixed if all sizes are literals, or one const generic beside a few literals; else
 /// known at run time.
@@ -99,7 +92,8 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let constants = constants(emitter);
     let declarations = constants.iter().map(|name| quote!(const #name: ::core::primitive::usize));
     let declarations: Vec<TokenStream> = declarations.collect();
-    let (space, space_value) = space(emitter);
+    let sizes: Vec<Count> = (0..model.blocks.len()).map(|block| model.block_size(block).into()).collect();
+    let (space, space_value) = space_of(emitter, &sizes);
     let (fields, docs): (Vec<Ident>, Vec<String>) = fields(model).into_iter().unzip();
     let coordinates = model.coordinates();
     let halves =
@@ -129,9 +123,27 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
             }
         }
     });
-    let values = (0..fields.len()).map(value_name);
+    let values: Vec<Ident> = (0..fields.len()).map(value_name).collect();
     let allow = super::allow();
-    let conversions = conversions(&name, &declarations, &constants, &fields, &types);
+    // From and into the tuple of the fields, or the field itself if there is one only.
+    let conversions = (!fields.is_empty()).then(|| {
+        quote! {
+            #[automatically_derived]
+            #allow
+            impl<#(#declarations,)* __T> ::core::convert::From<(#(#types,)*)> for #name<#(#constants,)* __T> {
+                fn from((#(#values,)*): (#(#types,)*)) -> Self {
+                    Self { #(#fields: #values),* }
+                }
+            }
+            #[automatically_derived]
+            #allow
+            impl<#(#declarations,)* __T> ::core::convert::From<#name<#(#constants,)* __T>> for (#(#types,)*) {
+                fn from(__state: #name<#(#constants,)* __T>) -> Self {
+                    (#(__state.#fields,)*)
+                }
+            }
+        }
+    });
     let item = quote! {
         #[doc = #summary]
         #allow
@@ -220,37 +232,6 @@ fn fields(model: &Model) -> Vec<(Ident, String)> {
     let velocities = declared.iter().filter(|_| model.has_velocities());
     let velocities = velocities.map(|block| (block.velocity_name(), velocity(block)));
     coordinates.chain(velocities).collect()
-}
-
-/// From and into the tuple of the fields, or the field itself if there is one only.
-fn conversions(
-    name: &Ident,
-    declarations: &[TokenStream],
-    constants: &[Ident],
-    fields: &[Ident],
-    types: &[TokenStream],
-) -> TokenStream {
-    if fields.is_empty() {
-        return TokenStream::new();
-    }
-    let values: Vec<Ident> = (0..fields.len()).map(value_name).collect();
-    let allow = super::allow();
-    quote! {
-        #[automatically_derived]
-        #allow
-        impl<#(#declarations,)* __T> ::core::convert::From<(#(#types,)*)> for #name<#(#constants,)* __T> {
-            fn from((#(#values,)*): (#(#types,)*)) -> Self {
-                Self { #(#fields: #values),* }
-            }
-        }
-        #[automatically_derived]
-        #allow
-        impl<#(#declarations,)* __T> ::core::convert::From<#name<#(#constants,)* __T>> for (#(#types,)*) {
-            fn from(__state: #name<#(#constants,)* __T>) -> Self {
-                (#(__state.#fields,)*)
-            }
-        }
-    }
 }
 
 /// The const generics of the struct that sizes of arrays name.
