@@ -28,7 +28,6 @@ pub(crate) mod lints;
 mod local;
 mod names;
 mod reach;
-mod seams;
 mod shared;
 pub(crate) mod spinors;
 mod sums;
@@ -140,10 +139,8 @@ impl<'ast> Visit<'ast> for IndexNames {
 
     /// The parameters of a function are no indices of a sum.
     fn visit_local(&mut self, local: &'ast syn::Local) {
-        match local.init.as_ref().map(|init| (closure(&init.expr), &init.expr)) {
-            Some((Some(closure), _)) => self.visit_expr(&closure.body),
-            Some((None, value)) => self.visit_expr(value),
-            None => {}
+        if let Some(init) = &local.init {
+            self.visit_expr(closure(&init.expr).map_or(&init.expr, |function| &function.body));
         }
     }
 }

@@ -93,10 +93,9 @@ impl Stages {
                            leave it out";
             return self.errors.refuse(formula, message);
         }
-        let is_of_spinor = |node: &Node| match node {
-            Node::Coordinate(coordinate) => self.model.blocks[coordinate.block as usize].is_spinor(),
-            _ => false,
-        };
+        let blocks = &self.model.blocks;
+        let is_of_spinor =
+            |node: &Node| matches!(node, Node::Coordinate(of) if blocks[of.block as usize].is_spinor());
         if self.graph.depends(gauge.node, is_of_spinor) {
             let message = "unit vectors stand in no gauge: the one-form `area(s)` is in no class of one-step schemes, and \
                            the other methods do as well without a gauge";

@@ -105,11 +105,10 @@ pub(crate) const STRENGTH: &str = "the factor of an area is a constant, the stre
                         time in it the lengths of unit vectors would not be kept";
 
 fn has_area(graph: &Graph, model: &crate::model::Model, id: Id) -> bool {
-    let is_rate = |node: &Node| match node {
-        Node::Velocity(coordinate) => model.blocks[coordinate.block as usize].is_spinor(),
-        _ => false,
-    };
-    graph.depends(id, is_rate)
+    graph.depends(
+        id,
+        |node| matches!(node, Node::Velocity(of) if model.blocks[of.block as usize].is_spinor()),
+    )
 }
 
 /// Whether neither coordinates nor the time stand in an expression.
