@@ -50,6 +50,21 @@ impl Graph {
         found
     }
 
+    /// v·∂f/∂q + ∂f/∂t of a function that stands inside `loops`: its rate of change along a motion. Velocities
+    /// in it do not change: there is no acceleration.
+    pub(crate) fn rate(&mut self, of: Expr, loops: &[Loop]) -> Expr {
+        let time = self.intern(Node::Time);
+        let mut terms = vec![self.derivative(of, time)];
+        for mut part in self.gradient(of, loops) {
+            if !self.node(part.target).is_velocity() {
+                part.loops = part.loops.into_iter().skip(loops.len()).collect();
+                part.target = self.velocity_of(part.target);
+                terms.push(self.term(part));
+            }
+        }
+        self.factored_sum(&terms)
+    }
+
     /// Innermost loops that the target does not depend on become sums in the value.
     fn with_inner_sums(&mut self, mut part: Contribution) -> Contribution {
         let needed = self.free(part.target).open;
@@ -89,22 +104,16 @@ impl Graph {
     /// What is positive where these expressions have a value: they take its logarithm or its root, and not
     /// in one branch of a choice only.
     pub(crate) fn positive(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
-        let mut seen: Vec<Id> = roots.into_iter().collect();
-        let (mut next, mut found) = (0, Vec::new());
-        while let Some(&id) = seen.get(next) {
-            next += 1;
-            if let Node::Unary(Unary::Ln | Unary::Log2 | Unary::Log10 | Unary::Sqrt, w) = self.node(id)
-                && w.scale > 0.0
-            {
-                found.push(w.node);
+        let always = |node: &Node| match node {
+            Node::Choose { .. } => Vec::new(),
+            node => node.operands(),
+        };
+        let argument = |id| match self.node(id) {
+            Node::Unary(Unary::Ln | Unary::Log2 | Unary::Log10 | Unary::Sqrt, w) => {
+                (w.scale > 0.0).then_some(w.node)
             }
-            if !matches!(self.node(id), Node::Choose { .. }) {
-                let operands = self.node(id).operands();
-                seen.extend(
-                    operands.into_iter().filter(|operand| !seen.contains(operand)).collect::<Vec<_>>(),
-                );
-            }
-        }
-        found
+            _ => None,
+        };
+        self.reachable_by(roots, always).into_iter().filter_map(argument).collect()
     }
 }

@@ -16,7 +16,6 @@ mod functions;
 mod graph;
 mod index;
 mod limits;
-mod motion;
 mod partial;
 mod polynomial;
 mod powers;

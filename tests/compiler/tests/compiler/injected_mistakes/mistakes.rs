@@ -134,9 +134,9 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     // are not added up, entries of the Jacobian in the rows of another constraint or of another member, a family
     // that begins too late.
     mistake("program/constraints.rs", "let curvatures = changes(graph, «&rates»);", "constraints"),
-    mistake("symbolic/motion.rs", "let mut terms = «vec![self.derivative(of, time)]»;", "Vec::new()"),
-    mistake("symbolic/motion.rs", "around.into_iter().skip(«loops.len()»)", "loops.len() + 1"),
-    mistake("symbolic/motion.rs", "let velocity = «self.velocity_of(target).into()»;", "target.into()"),
+    mistake("symbolic/differential.rs", "let mut terms = «vec![self.derivative(of, time)]»;", "Vec::new()"),
+    mistake("symbolic/differential.rs", "part.loops.into_iter().skip(«loops.len()»)", "loops.len() + 1"),
+    mistake("symbolic/differential.rs", "part.target = «self.velocity_of(part.target)»;", "part.target"),
     mistake(
         "program/constraints.rs",
         "Place::ConstraintDerivative(row(«number», constraint), column.clone())",
