@@ -115,7 +115,12 @@ pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr, effort: Effor
                     best = Some((cost, found));
                 }
                 Ok(_) => {}
-                Err(lacking) => reasons.push(lacking.sentence(&graph, model, half)),
+                Err(lacking) => {
+                    let reason = lacking.sentence(&graph, model, half);
+                    if !reasons.contains(&reason) {
+                        reasons.push(reason);
+                    }
+                }
             }
             if best.is_some() && effort == Effort::Advice {
                 break;
@@ -128,14 +133,8 @@ pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr, effort: Effor
     match best {
         Some((_, found)) => Search::Found(found),
         None => {
-            let mut said: Vec<String> = Vec::new();
-            for reason in reasons {
-                if !said.contains(&reason) {
-                    said.push(reason);
-                }
-            }
-            said.truncate(2);
-            Search::None(said.join("; "))
+            reasons.truncate(2);
+            Search::None(reasons.join("; "))
         }
     }
 }

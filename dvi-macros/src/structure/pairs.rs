@@ -41,32 +41,26 @@ impl PairSum {
 
     /// The first one among the terms of a Hamiltonian.
     pub(crate) fn find(graph: &mut Graph, model: &Model, energy: Expr) -> Option<Self> {
-        let terms = match graph.node(energy.node) {
+        let terms: Vec<Expr> = match graph.node(energy.node) {
             Node::Sum(terms) => terms.iter().map(|term| term.scaled(energy.scale)).collect(),
             _ => vec![energy],
         };
         (0..terms.len()).find_map(|number| {
             let mut sum = Self::of_term(graph, model, terms[number])?;
-            let others: Vec<Expr> = terms
-                .iter()
-                .enumerate()
-                .filter(|(other, _)| *other != number)
-                .map(|(_, term)| *term)
-                .collect();
-            sum.rest = if others.is_empty() { Expr::ZERO } else { graph.sum(&others) };
+            let mut others = terms.clone();
+            others.remove(number);
+            sum.rest = graph.sum(&others);
             Some(sum)
         })
     }
 
     /// A sum over pairs times what depends on parameters alone.
     fn of_term(graph: &mut Graph, model: &Model, term: Expr) -> Option<Self> {
-        let factors = graph.factors(term.node);
+        let mut kernel = graph.factors(term.node);
         let is_sum = |id: Id| matches!(graph.node(id), Node::Reduce { fold: Fold::Sum, .. });
-        let sum = factors.iter().position(|(id, exponent)| *exponent == 1 && is_sum(*id))?;
-        let pairs = pairs(graph, model, factors[sum].0)?;
-        let others =
-            factors.iter().enumerate().filter(|(number, _)| *number != sum).map(|(_, factor)| *factor);
-        let mut kernel: Vec<(Id, u32)> = others.collect();
+        let sum = kernel.iter().position(|(id, exponent)| *exponent == 1 && is_sum(*id))?;
+        let (sum, _) = kernel.remove(sum);
+        let pairs = pairs(graph, model, sum)?;
         let mut weights = [Vec::new(), Vec::new()];
         for (factor, exponent) in graph.factors(pairs.body.node) {
             let Some((body, field)) = weight(graph, &pairs, factor) else {

@@ -18,13 +18,10 @@ pub(super) fn skipped(model: &Model, mass: &[Entry]) -> Vec<(usize, i64)> {
             }
         }
         involved.sort_unstable();
-        let reached =
-            involved.iter().fold(
-                0,
-                |reached, (least, beyond)| {
-                    if *least <= reached { reached.max(*beyond) } else { reached }
-                },
-            );
+        let further = |reached: i64, &(least, beyond): &(i64, i64)| {
+            if least <= reached { reached.max(beyond) } else { reached }
+        };
+        let reached = involved.iter().fold(0, further);
         (!involved.is_empty() && reached < size).then_some((block, reached))
     };
     (0..model.blocks.len())

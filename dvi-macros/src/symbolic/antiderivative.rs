@@ -118,13 +118,8 @@ impl Integral<'_> {
                 if slope.is_zero() {
                     continue;
                 }
-                let rest: Vec<(Id, i32)> = varying
-                    .iter()
-                    .enumerate()
-                    .filter(|(other, _)| *other != place)
-                    .map(|(_, factor)| *factor)
-                    .chain(constant.iter().copied())
-                    .collect();
+                let mut rest = [varying, constant].concat();
+                rest.remove(place);
                 let rest = self.graph.monomial(&rest);
                 let ratio = self.graph.divide(rest, slope);
                 let Some(ratio) = self.graph.multiplied_out(&[ratio]) else { continue };
@@ -167,20 +162,13 @@ impl Integral<'_> {
         let mut found = Vec::new();
         match *self.graph.node(factor) {
             Node::Unary(function, w) => {
-                match function {
+                let root = match function {
                     // Of c·w, a positive factor goes out.
-                    Unary::Sqrt if w.scale > 0.0 => {
-                        found.push((Outer::Power(power / 2.0), w.node.into(), w.scale.powf(power / 2.0)));
-                    }
-                    Unary::Cbrt => {
-                        found.push((
-                            Outer::Power(power / 3.0),
-                            w.node.into(),
-                            w.scale.cbrt().powi(exponent),
-                        ));
-                    }
-                    _ => {}
-                }
+                    Unary::Sqrt if w.scale > 0.0 => Some((power / 2.0, w.scale.powf(power / 2.0))),
+                    Unary::Cbrt => Some((power / 3.0, w.scale.cbrt().powi(exponent))),
+                    _ => None,
+                };
+                found.extend(root.map(|(p, scale)| (Outer::Power(p), w.node.into(), scale)));
                 found.push((Outer::Function(function, exponent), w, 1.0));
             }
             Node::Binary(Binary::Powf, w, exponent_of) => {

@@ -41,10 +41,10 @@ impl Graph {
     /// a + b + …: constants and like terms collect, and a positive factor common to all terms goes out. The
     /// signs stay where they were written, because the sign of a zero is that of the sum as it stands.
     pub(crate) fn sum(&mut self, terms: &[Expr]) -> Expr {
-        let collected = match collect_terms(terms) {
-            Collected::Single(single) => return single,
-            Collected::Several(collected) => collected,
-        };
+        let collected = collected(terms);
+        if collected.len() < 2 {
+            return collected.first().copied().unwrap_or(Expr::ZERO);
+        }
         let factor = common_factor(&collected).abs();
         let node = self.intern(Node::Sum(divided(&collected, factor)));
         self.unsigned_sums.remove(&node);
@@ -54,10 +54,10 @@ impl Graph {
     /// A sum that a derivative produced: nobody wrote its signs, so all of them may go out, and do where the
     /// sum of the opposite signs is known already.
     pub(super) fn unsigned_sum(&mut self, terms: &[Expr]) -> Expr {
-        let collected = match collect_terms(terms) {
-            Collected::Single(single) => return single,
-            Collected::Several(collected) => collected,
-        };
+        let collected = collected(terms);
+        if collected.len() < 2 {
+            return collected.first().copied().unwrap_or(Expr::ZERO);
+        }
         let factor = common_factor(&collected);
         let [kept, opposite] = [factor, -factor].map(|factor| Node::Sum(divided(&collected, factor)));
         if let Some(node) = self.find(&opposite) {
@@ -299,14 +299,8 @@ fn leaves_range(a: f64, b: f64) -> bool {
     a.is_normal() && b.is_normal() && !(a * b).is_normal()
 }
 
-enum Collected {
-    /// A single term, or none.
-    Single(Expr),
-    /// Distinct nodes in id order.
-    Several(Vec<Expr>),
-}
-
-fn collect_terms(terms: &[Expr]) -> Collected {
+/// Terms of distinct nodes, in id order.
+fn collected(terms: &[Expr]) -> Vec<Expr> {
     let mut collected: Vec<Expr> = Vec::with_capacity(terms.len());
     for term in terms.iter().filter(|term| !term.is_zero()) {
         match collected.iter_mut().find(|known| known.node == term.node) {
@@ -316,11 +310,7 @@ fn collect_terms(terms: &[Expr]) -> Collected {
     }
     collected.retain(|term| term.scale != 0.0);
     collected.sort_by_key(|term| term.node);
-    match collected.as_slice() {
-        [] => Collected::Single(Expr::ZERO),
-        [single] => Collected::Single(*single),
-        _ => Collected::Several(collected),
-    }
+    collected
 }
 
 fn divided(terms: &[Expr], factor: f64) -> Vec<Expr> {
