@@ -97,17 +97,10 @@ fn expand(
     ending: impl FnOnce(&mut Stages) -> Option<TokenStream>,
 ) -> TokenStream {
     let renaming = names::renaming([&attribute, &item]);
-    let item = read_item(kind, tidy::names(item));
-    let expanded = item.map_or_else(|refused| refused, |item| expanded(kind, attribute, item, ending));
-    names::renamed(expanded, &renaming)
-}
-
-fn expanded(
-    kind: Kind,
-    attribute: TokenStream,
-    item: ItemStruct,
-    ending: impl FnOnce(&mut Stages) -> Option<TokenStream>,
-) -> TokenStream {
+    let item = match read_item(kind, tidy::names(item)) {
+        Ok(item) => item,
+        Err(refused) => return names::renamed(refused, &renaming),
+    };
     let mut errors = Errors::default();
     let item = once(item, &mut errors);
     let mut attribute = parse_attribute(kind, attribute, &mut errors);
@@ -118,7 +111,7 @@ fn expanded(
         stages.errors.push_syn(syn::Error::new(Span::call_site(), mistake));
         None
     });
-    match system {
+    let expanded = match system {
         Some(system) if stages.errors.is_empty() => {
             let warnings = warnings(&stages.attribute.shared, stages.attribute.scopes());
             quote!(#system #warnings)
@@ -128,7 +121,8 @@ fn expanded(
             let emitter = Emitter { graph: &stages.graph, model: &stages.model };
             stand_in(&emitter, stages.attribute.constrained, errors)
         }
-    }
+    };
+    names::renamed(expanded, &renaming)
 }
 
 /// The struct without the attributes that declare a second system on it.

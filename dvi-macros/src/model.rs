@@ -173,20 +173,15 @@ impl Model {
     fn extend(&mut self, word: &Ident, errors: &mut Errors) {
         let first = self.blocks.len();
         for name in [words::TIME, words::ENERGY] {
-            let mut names = self.blocks.iter().map(|block| &block.name);
-            if let Some(taken) = names.find(|known| **known == name) {
-                let message = format!(
-                    "a time transformation adds the coordinates `t` and `energy`: give `{taken}` another name"
-                );
-                errors.push(taken, message);
-                return;
-            }
+            let taken = self.blocks.iter().map(|block| &block.name).find(|known| **known == name);
+            let taken = taken.map(|taken| (taken, format!("`{taken}`")));
             let field = self.parameters.iter().any(|parameter| parameter.text == name);
-            if field {
+            if let Some((at, what)) = taken.or_else(|| field.then(|| (word, format!("the field `{name}`"))))
+            {
                 let message = format!(
-                    "a time transformation adds the coordinates `t` and `energy`: give the field `{name}` another name"
+                    "a time transformation adds the coordinates `t` and `energy`: give {what} another name"
                 );
-                errors.push(word, message);
+                errors.push(at, message);
                 return;
             }
             self.blocks.push(Block {

@@ -142,13 +142,8 @@ impl Printer<'_> {
             Node::Parameter(p) => {
                 let indices: String =
                     p.indices.iter().map(|index| format!("[{}]", self.letters.index(index))).collect();
-                (
-                    format!(
-                        "{}{indices}",
-                        self.letters.name(&self.letters.model.parameters[p.field as usize].text)
-                    ),
-                    Strength::Atom,
-                )
+                let name = self.letters.name(&self.letters.model.parameters[p.field as usize].text);
+                (format!("{name}{indices}"), Strength::Atom)
             }
             Node::Count(index) => {
                 let index = self.letters.index(index);
