@@ -35,10 +35,6 @@ fn system_without_mistakes(seed: u64) -> (Kind, TokenStream, TokenStream) {
     }
 }
 
-fn any_kind() -> impl Strategy<Value = Kind> {
-    prop::sample::select(vec![Kind::Degenerate, Kind::Regular])
-}
-
 /// Words and numbers of the language, of Rust, and of neither.
 fn vocabulary() -> Vec<TokenTree> {
     let words = quote! {
@@ -180,7 +176,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_attribute(kind in any_kind(), attribute in any_tokens()) {
+    fn any_attribute(kind in prop::sample::select(Kind::BOTH.to_vec()), attribute in any_tokens()) {
         expand(kind, &attribute, &system());
     }
 
@@ -230,7 +226,7 @@ fn the_systems_themselves_are_accepted() {
 #[test]
 fn empty_input() {
     let nothing = TokenStream::new();
-    for kind in [Kind::Degenerate, Kind::Regular] {
+    for kind in Kind::BOTH {
         assert!(expand(kind, &nothing, &system()).contains("no coordinates"));
         expand(kind, &nothing, &nothing);
     }

@@ -80,9 +80,7 @@ fn recursion(statements: &str, last: &str, count: usize) -> u64 {
 }
 
 /// Twice as many terms are little more than twice the work.
-fn grows_with_the_terms(name: &str, work: impl Fn(usize) -> u64, sizes: [usize; 3]) {
-    grows_by(2.4, name, work, sizes);
-}
+const LITTLE_MORE: f64 = 2.4;
 
 /// Twice as many terms are less than `most` times the work.
 fn grows_by(most: f64, name: &str, work: impl Fn(usize) -> u64, sizes: [usize; 3]) {
@@ -99,22 +97,22 @@ fn grows_by(most: f64, name: &str, work: impl Fn(usize) -> u64, sizes: [usize; 3
 
 #[test]
 fn monomials_without_end() {
-    grows_with_the_terms("monomials", monomials, [500, 1000, 2000]);
+    grows_by(LITTLE_MORE, "monomials", monomials, [500, 1000, 2000]);
 }
 
 #[test]
 fn neighbours_without_end() {
-    grows_with_the_terms("a chain", chain, [50, 100, 200]);
+    grows_by(LITTLE_MORE, "a chain", chain, [50, 100, 200]);
 }
 
 #[test]
 fn pairs_without_end() {
-    grows_with_the_terms("pairs", pairs, [250, 500, 1000]);
+    grows_by(LITTLE_MORE, "pairs", pairs, [250, 500, 1000]);
 }
 
 #[test]
 fn quotients_of_quotients_without_end() {
-    grows_with_the_terms("quotients of quotients", quotients, [8, 16, 32]);
+    grows_by(LITTLE_MORE, "quotients of quotients", quotients, [8, 16, 32]);
 }
 
 /// Each formula stands in the next one twice: as a tree they grow with a power of their number.
