@@ -9,7 +9,7 @@ use syn::ext::IdentExt as _;
 use syn::{Generics, Ident, ItemStruct, Path, Type};
 
 use crate::errors::Errors;
-use crate::symbolic::Index;
+use crate::symbolic::{Atom, Index};
 use crate::syntax::{Attribute, Declaration, Factor, Function, Kind, Named, ScalarFieldPath};
 use crate::words::{self, reserved};
 
@@ -352,10 +352,9 @@ impl Model {
 
     /// Whether the compiler knows a size.
     pub(crate) fn is_constant(&self, size: &Index) -> bool {
-        size.terms.iter().all(|(atom, _)| match atom {
-            crate::symbolic::Atom::Size(size) => self.sizes[size.0 as usize].constant,
-            _ => false,
-        })
+        let is_constant =
+            |atom: &Atom| matches!(atom, Atom::Size(size) if self.sizes[size.0 as usize].constant);
+        size.terms.iter().all(|(atom, _)| is_constant(atom))
     }
 }
 

@@ -157,13 +157,10 @@ impl Stages {
         lowering.share(&self.attribute);
         let lagrangian = match &self.attribute.lagrangian {
             Some(lagrangian) => lowering.formula(lagrangian, Role::Lagrangian),
-            None => {
-                if clean {
-                    let name = lowering.model.item.ident.clone();
-                    lowering.errors.push(&name, "no dynamics: write `lagrangian = …`");
-                }
-                None
+            None if clean => {
+                lowering.errors.refuse(&lowering.model.item.ident, "no dynamics: write `lagrangian = …`")
             }
+            None => None,
         };
         let momenta = named(&self.attribute.momenta, Role::Momentum, &mut lowering);
         let events = named(&self.attribute.events, Role::Event, &mut lowering);
@@ -243,13 +240,8 @@ fn one_form_and_hamiltonian(
             one_form.zip(hamiltonian)
         }
         (Some(_), one_form, hamiltonian) => {
-            let second = one_form.as_ref().or(hamiltonian.as_ref());
-            second.inspect(|second| {
-                lowering
-                    .errors
-                    .push(second, "give either `lagrangian`, or `one_form` and `hamiltonian`, not both");
-            });
-            None
+            let message = "give either `lagrangian`, or `one_form` and `hamiltonian`, not both";
+            lowering.errors.refuse(one_form.as_ref().or(hamiltonian.as_ref())?, message)
         }
         (None, one_form, hamiltonian) => {
             one_form.as_ref().and_then(|one_form| lower_one_form(lowering, one_form));
@@ -260,8 +252,7 @@ fn one_form_and_hamiltonian(
                     (None, Some(_)) => "no one-form: write `one_form = … * d(x) + …`",
                     _ => "no dynamics: write `one_form = …` and `hamiltonian = …`, or `lagrangian = …`",
                 };
-                let name = lowering.model.item.ident.clone();
-                lowering.errors.push(&name, missing);
+                lowering.errors.push(&lowering.model.item.ident, missing);
             }
             None
         }

@@ -134,9 +134,9 @@ impl Lowering<'_> {
         }
     }
 
-    /// Notes that the formula is not smooth where `a` is `b`: where `abs` and `signum` are taken of zero, and
-    /// where what a condition, `min` or `max` compares is equal. What depends on an index differs from term to
-    /// term of a sum, and is left out.
+    /// Notes that the formula is not smooth where `a` is `b`: where `abs` and `signum` are taken of zero,
+    /// and where what a condition, `min` or `max` compares is equal. What depends on an index differs from
+    /// term to term of a sum, and is left out.
     pub(super) fn note_seam(&mut self, a: Expr, b: Expr) {
         // A formula of the motion may use a name that formulas share.
         let is_of_motion =

@@ -210,19 +210,18 @@ impl Lowering<'_> {
                 return value;
             }
             let (receiver, arguments) = (call.args.first(), call.args.iter().skip(1).collect::<Vec<_>>());
-            if VectorMethod::by_name(name).is_some_and(|(_, arity)| arity == arguments.len())
-                && let Some(receiver) = receiver
-                && let Some(Value::Vector(_)) = self.quietly(receiver)
-            {
-                let listed = arguments.iter().map(text).collect::<Vec<_>>().join(", ");
-                let written = format!("{}.{name}({listed})", as_receiver(receiver));
-                return self.refuse(&call.func, format!("functions are written as methods: `{written}`"));
-            }
-            if is_method(name) {
-                let written = Self::as_method(name, receiver, &arguments);
-                return self.refuse(&call.func, format!("functions are written as methods: `{written}`"));
-            }
-            return self.unknown_function(&call.func, name, receiver, &arguments);
+            let is_vectors = VectorMethod::by_name(name).is_some_and(|(_, arity)| arity == arguments.len());
+            let vector = receiver
+                .filter(|receiver| is_vectors && matches!(self.quietly(receiver), Some(Value::Vector(_))));
+            let written = match vector {
+                Some(vector) => {
+                    let listed = arguments.iter().map(text).collect::<Vec<_>>().join(", ");
+                    format!("{}.{name}({listed})", as_receiver(vector))
+                }
+                None if is_method(name) => Self::as_method(name, receiver, &arguments),
+                None => return self.unknown_function(&call.func, name, receiver, &arguments),
+            };
+            return self.refuse(&call.func, format!("functions are written as methods: `{written}`"));
         };
         if call.args.len() != 1 {
             return self
@@ -336,8 +335,8 @@ impl Lowering<'_> {
             Some(near) => format!("unknown function `{name}`; did you mean `{near}`?"),
             None => format!(
                 "unknown function `{name}`; a function of your own is declared with its derivatives: \
-                 `functions({name} = [{name}, d{name}, d2{name}])`; one of several numbers, or from a table, is a \
-                 field of the struct that implements `ScalarField`"
+                 `functions({name} = [{name}, d{name}, d2{name}])`; one of several numbers, or from a \
+                 table, is a field of the struct that implements `ScalarField`"
             ),
         };
         self.errors.refuse_once(&kind, at, message)

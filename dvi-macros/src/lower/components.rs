@@ -38,11 +38,8 @@ impl Lowering<'_> {
     fn term(&mut self, component: Component) -> Expr {
         let velocity = self.graph.intern(Node::Velocity(component.coordinate())).into();
         let term = self.graph.multiply(component.value, velocity);
-        component
-            .over
-            .into_iter()
-            .rev()
-            .fold(term, |term, over| self.graph.fold(Fold::Sum, Atom::Open(over.depth), over.range, term))
+        let loops = component.over.into_iter().rev();
+        loops.fold(term, |term, over| self.graph.fold(Fold::Sum, Atom::Open(over.depth), over.range, term))
     }
 
     /// The components of a force that do not vanish, each at the coordinate that it acts on.
@@ -161,12 +158,8 @@ impl Lowering<'_> {
                     self.model.blocks[first].sizes().into_iter().zip(0..).map(over).collect();
                 let indices: Vec<Index> = over.iter().map(|over| Index::open(over.depth)).collect();
                 let index = self.model.blocks[first].place(&indices);
-                let bound: Vec<_> = names
-                    .into_iter()
-                    .zip(indices)
-                    .zip(&over)
-                    .map(|((name, form), over)| (name, form, over))
-                    .collect();
+                let bound = names.into_iter().zip(indices).zip(&over);
+                let bound: Vec<_> = bound.map(|((name, form), over)| (name, form, over)).collect();
                 let value = self.inside(&bound, &closure.body)?;
                 let values = match axis {
                     Some(axis) => {

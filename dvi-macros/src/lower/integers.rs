@@ -75,12 +75,10 @@ impl Lowering<'_> {
         let unknown = match syntax {
             Syntax::Paren(inner) => return self.may_be_integer(&inner.expr),
             Syntax::Path(path) => {
-                let is_std = path
-                    .path
-                    .segments
-                    .iter()
-                    .any(|segment| segment.ident == "consts" || segment.ident == "f64");
-                path.path.segments.len() > 1 && !is_std
+                let segments = &path.path.segments;
+                let is_std =
+                    |segment: &syn::PathSegment| segment.ident == "consts" || segment.ident == "f64";
+                segments.len() > 1 && !segments.iter().any(is_std)
             }
             Syntax::Field(field) => is_part_of_field(&field.base),
             Syntax::Index(index) => {

@@ -85,11 +85,9 @@ pub(super) fn generic(ty: &Type, generics: &Generics) -> Option<Ident> {
 
 /// Whether a type is that of numbers that lie beside one another for certain.
 pub(super) fn is_slice(ty: &Type, generics: &Generics) -> bool {
-    let is_number = |ty: &Type| match ty {
-        Type::Path(path) if path.path.get_ident().is_some() => {
-            shape(ty) == Shape::Number || generic(ty, generics).is_some()
-        }
-        _ => false,
+    let is_number = |ty: &Type| {
+        let is_name = matches!(ty, Type::Path(path) if path.path.get_ident().is_some());
+        is_name && (shape(ty) == Shape::Number || generic(ty, generics).is_some())
     };
     match plain(ty) {
         Type::Array(array) => is_number(&array.elem),

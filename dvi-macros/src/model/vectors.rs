@@ -151,9 +151,7 @@ pub(crate) fn are_components(length: i64, entry: &Shape) -> bool {
 
 /// The number of components in `r[n][3]`.
 pub(super) fn components(name: &Ident, declared: &Expr) -> syn::Result<usize> {
-    let message = match literal(declared) {
-        Some(count) if COMPONENTS.contains(&count) => return Ok(count as usize),
-        _ => format!("a vector has two components or more: an array of numbers is `{name}[n]`"),
-    };
-    Err(syn::Error::new_spanned(declared, message))
+    let count = literal(declared).filter(|count| COMPONENTS.contains(count));
+    let message = format!("a vector has two components or more: an array of numbers is `{name}[n]`");
+    count.map(|count| count as usize).ok_or_else(|| syn::Error::new_spanned(declared, message))
 }
