@@ -67,8 +67,8 @@ struct Function<'a> {
 }
 
 /// The attribute of functions that are a part of each step that calls them. Not in builds with debug
-/// assertions: there nothing is optimised as a rule, and a copy for each caller is work for the compiler that
-/// makes no step faster.
+/// assertions: there nothing is optimised as a rule, and a copy for each caller is work for the compiler
+/// that makes no step faster.
 pub(crate) struct ForceInline;
 
 impl ToTokens for ForceInline {

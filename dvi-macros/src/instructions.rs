@@ -72,11 +72,6 @@ impl Instructions {
         self.free[register.0 as usize].depth()
     }
 
-    /// Whether everything that a register depends on is known inside of `depth` loops.
-    pub(crate) fn is_known(&self, register: Register, depth: u32) -> bool {
-        self.depth(register) <= depth
-    }
-
     pub(crate) fn len(&self) -> usize {
         self.list.len()
     }

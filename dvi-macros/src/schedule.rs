@@ -73,19 +73,15 @@ pub(crate) fn schedule(code: &Instructions, statements: &[Statement], values: &[
 impl<'a> Scheduler<'a> {
     /// The steps inside of `depth` loops.
     fn scope(&self, depth: u32, outside: &[bool], duties: &[Duty<'a>]) -> Vec<Step> {
-        // The body of a sum that is known is of no use here, even if it stands in a loop with the same index.
+        // The body of a known sum is of no use here, even if it stands in a loop with the same index.
         let mut needed = self.code.reachable(duties.iter().map(Duty::register), outside);
-        needed.retain(|register| self.code.is_known(*register, depth));
+        needed.retain(|register| self.code.depth(*register) <= depth);
         let stages = self.stages(&needed);
         let mut defined = outside.to_vec();
         needed.iter().for_each(|register| defined[register.0 as usize] = true);
         let groups = self.groups(&needed, &stages, duties);
-        let last = needed
-            .iter()
-            .map(|r| stages[r.0 as usize])
-            .chain(groups.iter().map(|g| g.entry))
-            .max()
-            .unwrap_or(0);
+        let entries = groups.iter().map(|group| group.entry);
+        let last = needed.iter().map(|r| stages[r.0 as usize]).chain(entries).max().unwrap_or(0);
         let mut steps = Vec::new();
         for stage in 0..=last {
             let here = needed.iter().filter(|register| stages[register.0 as usize] == stage);

@@ -37,12 +37,8 @@ pub(crate) fn degenerate(
     if formulas.gauge.is_some() {
         account.sentence("α and H contain the gauge F: dF/dt is added to L.".to_string());
     }
-    let spinors = emitter
-        .model
-        .blocks
-        .iter()
-        .filter(|block| block.is_spinor() && block.axis.is_some_and(|axis| axis.number == 0));
-    for block in spinors {
+    let firsts = emitter.model.coordinates().into_iter().map(|blocks| &emitter.model.blocks[blocks.start]);
+    for block in firsts.filter(|block| block.is_spinor()) {
         let (vector, spinor) =
             (block.label(), block.label().replacen(&*block.name.to_string(), &block.spinor(), 1));
         account.sentence(format!(

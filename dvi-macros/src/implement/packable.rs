@@ -19,7 +19,7 @@
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{ToTokens as _, quote};
-use syn::{Field, GenericParam, Ident, ItemStruct, Path, TypeParam, TypeParamBound};
+use syn::{Field, GenericParam, Ident, ItemStruct, Path, TraitBound, TypeParam, TypeParamBound};
 
 use super::{allow, over};
 use crate::syntax::tidy;
@@ -37,12 +37,9 @@ fn generic(item: &ItemStruct) -> Option<&TypeParam> {
         item.generics.params.iter().filter(|generic| !matches!(generic, GenericParam::Const(_)));
     let (Some(GenericParam::Type(generic)), None) = (others.next(), others.next()) else { return None };
     // What a pack has.
-    let is_had = |bound: &TypeParamBound| match bound {
-        TypeParamBound::Trait(bound) => {
-            ["Clone", "Copy", "Debug", "PartialEq"].iter().any(|had| bound.path.is_ident(had))
-        }
-        _ => false,
-    };
+    let had = ["Clone", "Copy", "Debug", "PartialEq"];
+    let is_one = |bound: &TraitBound| had.iter().any(|had| bound.path.is_ident(had));
+    let is_had = |bound: &TypeParamBound| matches!(bound, TypeParamBound::Trait(bound) if is_one(bound));
     // A field that may not be there cannot be listed.
     let is_certain = |field: &Field| !field.attrs.iter().any(|attribute| attribute.path().is_ident("cfg"));
     let is_plain = generic.bounds.iter().all(is_had) && item.generics.where_clause.is_none();

@@ -126,24 +126,23 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let values: Vec<Ident> = (0..fields.len()).map(value_name).collect();
     let allow = super::allow();
     // From and into the tuple of the fields, or the field itself if there is one only.
-    let conversions = (!fields.is_empty()).then(|| {
-        quote! {
-            #[automatically_derived]
-            #allow
-            impl<#(#declarations,)* __T> ::core::convert::From<(#(#types,)*)> for #name<#(#constants,)* __T> {
-                fn from((#(#values,)*): (#(#types,)*)) -> Self {
-                    Self { #(#fields: #values),* }
-                }
-            }
-            #[automatically_derived]
-            #allow
-            impl<#(#declarations,)* __T> ::core::convert::From<#name<#(#constants,)* __T>> for (#(#types,)*) {
-                fn from(__state: #name<#(#constants,)* __T>) -> Self {
-                    (#(__state.#fields,)*)
-                }
+    let conversions = quote! {
+        #[automatically_derived]
+        #allow
+        impl<#(#declarations,)* __T> ::core::convert::From<(#(#types,)*)> for #name<#(#constants,)* __T> {
+            fn from((#(#values,)*): (#(#types,)*)) -> Self {
+                Self { #(#fields: #values),* }
             }
         }
-    });
+        #[automatically_derived]
+        #allow
+        impl<#(#declarations,)* __T> ::core::convert::From<#name<#(#constants,)* __T>> for (#(#types,)*) {
+            fn from(__state: #name<#(#constants,)* __T>) -> Self {
+                (#(__state.#fields,)*)
+            }
+        }
+    };
+    let conversions = (!fields.is_empty()).then_some(conversions);
     let item = quote! {
         #[doc = #summary]
         #allow
@@ -239,10 +238,9 @@ fn constants(emitter: &Emitter<'_>) -> Vec<Ident> {
     let model = emitter.model;
     let used = |name: &Ident| {
         (0..model.blocks.len()).flat_map(|block| fixed(emitter, block)).any(|size| {
-            size.terms.iter().any(|(atom, _)| match atom {
-                Atom::Size(size) => *name == model.sizes[size.0 as usize].text,
-                _ => false,
-            })
+            let is_name =
+                |atom: &Atom| matches!(atom, Atom::Size(size) if *name == model.sizes[size.0 as usize].text);
+            size.terms.iter().any(|(atom, _)| is_name(atom))
         })
     };
     model.item.generics.const_params().map(|constant| constant.ident.clone()).filter(used).collect()

@@ -34,8 +34,7 @@ impl Count {
             [] => Index::literal(1).into(),
             [only] => length(only).into(),
             [outer, inner, ..] => {
-                let rows = Rows { count: length(outer), ..Rows::from(outer, inner) };
-                Self { rows: Some(rows), rest: Index::default() }
+                Self { rows: Some(Rows::of(length(outer), outer, inner)), rest: Index::default() }
             }
         }
     }
@@ -46,8 +45,7 @@ impl Count {
             [] => Index::default().into(),
             [only] => place(only).into(),
             [outer, inner, ..] => {
-                let rows = Rows { count: place(outer), ..Rows::from(outer, inner) };
-                Self { rows: Some(rows), rest: place(inner) }
+                Self { rows: Some(Rows::of(place(outer), outer, inner)), rest: place(inner) }
             }
         }
     }
@@ -74,12 +72,11 @@ impl Count {
 }
 
 impl Rows {
-    /// Without their number.
-    fn from(outer: &Loop, inner: &Loop) -> Self {
+    fn of(count: Index, outer: &Loop, inner: &Loop) -> Self {
         let (length, index) = (length(inner), Atom::Open(outer.depth));
         let step = length.terms.iter().find(|(atom, _)| *atom == index).map_or(0, |(_, step)| *step);
         let first = length.plus(&Index::atom(index), -step).plus(&outer.range.lower, step);
-        Self { first, step, count: Index::default() }
+        Self { first, step, count }
     }
 }
 

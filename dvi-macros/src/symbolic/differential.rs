@@ -50,8 +50,8 @@ impl Graph {
         found
     }
 
-    /// v·∂f/∂q + ∂f/∂t of a function that stands inside `loops`: its rate of change along a motion. Velocities
-    /// in it do not change: there is no acceleration.
+    /// v·∂f/∂q + ∂f/∂t of a function that stands inside `loops`: its rate of change along a motion. No
+    /// velocity in it changes: there is no acceleration.
     pub(crate) fn rate(&mut self, of: Expr, loops: &[Loop]) -> Expr {
         let time = self.intern(Node::Time);
         let mut terms = vec![self.derivative(of, time)];

@@ -69,11 +69,9 @@ impl Graph {
     /// The sum of these multiplied out, unless it is too long for that.
     pub(crate) fn multiplied_out(&mut self, values: &[Expr]) -> Option<Expr> {
         let polynomial = self.polynomial_of_sum(values, false)?;
-        let terms: Vec<Expr> = polynomial
-            .0
-            .iter()
-            .map(|(monomial, [value, _])| self.monomial(monomial).scaled(*value))
-            .collect();
+        let terms = polynomial.0.iter();
+        let terms = terms.map(|(monomial, [value, _])| self.monomial(monomial).scaled(*value));
+        let terms: Vec<Expr> = terms.collect();
         Some(self.sum(&terms))
     }
 

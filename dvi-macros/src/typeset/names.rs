@@ -102,11 +102,8 @@ impl Typesetter {
     }
 
     fn is_named_vector(&self, name: &str, indices: usize) -> bool {
-        self.vectors
-            .iter()
-            .rev()
-            .find(|(known, _)| known == name)
-            .is_some_and(|(_, count)| *count == indices)
+        let known = self.vectors.iter().rev().find(|(known, _)| known == name);
+        known.is_some_and(|(_, count)| *count == indices)
     }
 
     /// `name` with `indices`, below `accent` if there is one.

@@ -160,7 +160,11 @@ pub(crate) const MISTAKES: &[Mistake] = &[
         "Index::open(over.depth).plus(&over.range.lower, -1)",
         "Index::open(over.depth)",
     ),
-    mistake("symbolic/count.rs", "Self { rows: «Some(rows)», rest: place(inner) }", "None"),
+    mistake(
+        "symbolic/count.rs",
+        "Self { rows: «Some(Rows::of(place(outer), outer, inner))», rest: place(inner) }",
+        "None",
+    ),
     // Constraints of the velocities: derivatives with the weights of others, or without themselves, and
     // without those by velocities in families and sums.
     mistake("program/constraints.rs", "Variable::Position => «Weight::Q»,", "Weight::V"),
