@@ -88,10 +88,17 @@ impl Graph {
 
     /// Whether it may be no number somewhere.
     pub(super) fn has_domain(&self, id: Id) -> bool {
-        self.depends(id, |node| match node {
-            Node::Unary(function, _) => !function.has(Property::Smooth),
-            Node::Reciprocal(_) | Node::Binary(..) | Node::Call(..) | Node::ScalarField(..) => true,
+        self.depends(id, Node::has_domain)
+    }
+}
+
+impl Node {
+    /// The same of one that is no number somewhere though its operands are.
+    pub(super) fn has_domain(&self) -> bool {
+        match self {
+            Self::Unary(function, _) => !function.has(Property::Smooth),
+            Self::Reciprocal(_) | Self::Binary(..) | Self::Call(..) | Self::ScalarField(..) => true,
             _ => false,
-        })
+        }
     }
 }

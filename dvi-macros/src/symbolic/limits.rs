@@ -18,7 +18,7 @@
 use rustc_hash::FxHashMap as HashMap;
 
 use super::functions::{Property, Unary};
-use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation, leaf};
+use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation};
 use super::index::{Atom, Index, Range};
 use super::powers::{Part, Root, take};
 use crate::work::step;
@@ -206,16 +206,8 @@ impl Graph {
     /// Whether it is made of functions that are smooth everywhere.
     fn is_smooth(&self, id: Id) -> bool {
         !self.depends(id, |node| match node {
-            Node::One | leaf!() | Node::Sum(_) | Node::Product(_) | Node::Reduce { fold: Fold::Sum, .. } => {
-                false
-            }
-            Node::Unary(function, _) => !function.has(Property::Smooth),
-            Node::Reciprocal(_)
-            | Node::Binary(..)
-            | Node::Call(..)
-            | Node::ScalarField(..)
-            | Node::Choose { .. }
-            | Node::Reduce { fold: Fold::Product, .. } => true,
+            Node::Choose { .. } | Node::Reduce { fold: Fold::Product, .. } => true,
+            node => node.has_domain(),
         })
     }
 
