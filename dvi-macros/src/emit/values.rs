@@ -164,14 +164,8 @@ pub(super) fn parameter_slice(field: u32) -> Ident {
 }
 
 impl Emitter<'_> {
-    /// A parameter as a number, with its indices in brackets.
-    pub(crate) fn parameter(&self, field: u32, indices: &TokenStream) -> TokenStream {
-        let place = &self.model.parameters[field as usize].tokens;
-        self.parameter_at(field, &quote!(#place #indices))
-    }
-
-    /// The parameter at a place.
-    fn parameter_at(&self, field: u32, place: &TokenStream) -> TokenStream {
+    /// The parameter at a place, as a number.
+    pub(crate) fn parameter_at(&self, field: u32, place: &TokenStream) -> TokenStream {
         let krate = self.krate();
         match &self.model.parameters[field as usize].generic {
             Some(generic) => quote!(<#generic as #krate::Parameter<__T>>::value(#place)),

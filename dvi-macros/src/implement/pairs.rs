@@ -74,7 +74,8 @@ fn weight(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
     let krate = emitter.krate();
     let one = quote!(<__T as #krate::Scalar>::lift(1.0));
     pairs.sum.weights.iter().fold(one, |product, (field, exponent)| {
-        let factor = emitter.parameter(*field, &quote!([__body]));
+        let place = &emitter.model.parameters[*field as usize].tokens;
+        let factor = emitter.parameter_at(*field, &quote!(#place[__body]));
         (0..*exponent).fold(product, |product, _| quote!(#product * #factor))
     })
 }
