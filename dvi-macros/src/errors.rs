@@ -125,7 +125,7 @@ pub(crate) fn here(count: usize) -> String {
 }
 
 /// `a`, `b` and `c`
-pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+pub(crate) fn listed(names: impl IntoIterator<Item = impl std::fmt::Display>) -> String {
     let quoted: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
     match quoted.as_slice() {
         [] => String::new(),

@@ -346,7 +346,7 @@ impl<'a> Lowering<'a> {
             }
             (None, None) => format!(
                 "a formula may use the coordinates {}, the fields of the struct, constants such as `PI`, and `t`",
-                listed(declared.iter().take(coordinates).map(String::as_str))
+                listed(declared.iter().take(coordinates))
             ),
         };
         self.errors.refuse_once(&format!("name {name}"), at, format!("{what} `{name}`; {hint}"))

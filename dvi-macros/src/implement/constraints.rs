@@ -15,11 +15,9 @@ impl Emitter<'_> {
     /// Sets g, or a in its place, to zero and cuts it into one slice for each declared constraint.
     fn constraint_output(&self, constraints: &Constraints) -> TokenStream {
         let krate = self.krate();
-        let parts = constraints
-            .lengths
-            .iter()
-            .enumerate()
-            .map(|(constraint, length)| (constraint_members(constraint as u32), self.length(length)));
+        let lengths = constraints.lengths.iter().zip(0..);
+        let parts =
+            lengths.map(|(length, constraint)| (constraint_members(constraint), self.length(length)));
         let split = super::slices::split(&format_ident!("__g"), parts, "split_at_mut");
         quote!(__g.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
     }

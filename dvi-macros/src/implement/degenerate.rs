@@ -56,7 +56,7 @@ pub(crate) fn degenerate(
     if !divisors.is_empty() {
         account.sentence(format!(
             "F is divided by {}: it is no number where that is 0, and loses digits where that is small.",
-            listed(divisors.iter().map(String::as_str))
+            listed(&divisors)
         ));
     }
     account.observed(checked, &formulas.momenta, &formulas.events);

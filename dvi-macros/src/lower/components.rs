@@ -84,7 +84,7 @@ impl Lowering<'_> {
             let names = self.names(&declared);
             let hint = match nearest(&name.to_string(), names.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => format!("the coordinates are {}", listed(names.iter().map(String::as_str))),
+                None => format!("the coordinates are {}", listed(&names)),
             };
             self.errors.push(
                 name,
@@ -100,8 +100,7 @@ impl Lowering<'_> {
         let (expected, found) = (declared.len(), list.elems.len());
         if found != expected {
             if !self.model.lost_coordinates {
-                let names = self.names(&declared);
-                let names = listed(names.iter().map(String::as_str));
+                let names = listed(self.names(&declared));
                 let message =
                     format!("expected {expected} components, one for each of {names}; {}", here(found));
                 self.errors.push(list, message);

@@ -236,8 +236,7 @@ fn block_of(graph: &Graph, velocity: Id) -> usize {
 
 impl Lacking {
     fn sentence(&self, graph: &Graph, model: &Model, half: &[usize]) -> String {
-        let names: Vec<String> = half.iter().map(|block| model.blocks[*block].label()).collect();
-        let names = listed(names.iter().map(String::as_str));
+        let names = listed(half.iter().map(|block| model.blocks[*block].label()));
         match self {
             Self::Antiderivative(part) => {
                 let value = print_expr(graph, part.value, part.loops.len(), model);

@@ -137,9 +137,8 @@ impl MassMatrix {
 
     fn without_mass(&self, model: &Model) -> String {
         if self.massless.iter().all(|(_, mentioned)| !mentioned) {
-            let terms: Vec<String> =
-                model.coordinates().iter().map(|blocks| kinetic_energy(model, blocks.start)).collect();
-            let terms = listed(terms.iter().map(String::as_str));
+            let blocks = model.coordinates();
+            let terms = listed(blocks.iter().map(|blocks| kinetic_energy(model, blocks.start)));
             return format!("this Lagrangian mentions no velocity: add a kinetic energy such as {terms}");
         }
         if !self.quadratic {
