@@ -124,7 +124,10 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         let begin = Begin { system: *system, interval: *interval, q, phase, mass };
         let Work { node, increment, trial, weights, .. } = work;
         let coefficients = &mut equations.begin(&begin, node)?;
-        guess.begin(increment, |increment| phase.guess(mass, &phase.p, interval.h, increment));
+        match guess {
+            Guess::Extrapolated => phase.guess(mass, &phase.p, interval.h, increment),
+            Guess::Zero => increment.fill(T::lift(0.0)),
+        }
         let mut posed = Posed { equations, coefficients, begin: &begin, node };
         let (points, storage) = ([&***q, &phase.p], (solver, [trial, weights]));
         let judge = Convergence::new(*stopping, stopping.max_iterations);

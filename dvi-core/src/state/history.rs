@@ -3,7 +3,7 @@
 //! The guess is the value at the next step of the polynomial through the last m increments:
 //! Σᵢ (−1)ⁱ⁻¹ (m over i) s₋ᵢ, i = 1 … m.
 
-use core::ops::{Deref, DerefMut};
+use core::ops::Deref;
 
 use crate::memory::{Memory, lasting};
 use crate::scalar::passes::lanes_stay_together;
@@ -17,21 +17,6 @@ pub(crate) enum Guess {
     /// No increment: Newton's first iterate is then the linearly implicit step, which is safer where steps
     /// are so long that extrapolation is off.
     Zero,
-}
-
-impl Guess {
-    /// Sets `increment` to it, by what extrapolates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn begin<V: DerefMut<Target = [P]>, P: Scalar>(
-        self,
-        increment: &mut V,
-        extrapolate: impl FnOnce(&mut V),
-    ) {
-        match self {
-            Self::Extrapolated => extrapolate(increment),
-            Self::Zero => increment.fill(P::lift(0.0)),
-        }
-    }
 }
 
 /// How many increments are kept.

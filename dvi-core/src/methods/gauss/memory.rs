@@ -123,11 +123,10 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             &continued
         };
         for part in Self::FIRST_PART..y.len() {
-            guess.begin(
-                &mut slopes[part],
-                #[cfg_attr(not(debug_assertions), inline(always))]
-                |slopes| combine(continuation, &completed[part], nothing, slopes),
-            );
+            match guess {
+                Guess::Extrapolated => combine(continuation, &completed[part], nothing, &mut slopes[part]),
+                Guess::Zero => slopes[part].fill(Lanes::all(T::lift(0.0))),
+            }
             weigh(weights, &slopes[part], &mut terms[part]);
         }
     }

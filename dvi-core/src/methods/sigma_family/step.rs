@@ -107,7 +107,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         let Work { increment, shift, next: p0, trial, weights, sum: left_out, .. } = work;
         left_out.fill(T::lift(0.0));
         let shift = (S::AFFINE && !*defect_vanishes).then_some(&*shift);
-        guess.begin(increment, |increment| history.extrapolate(increment));
+        match guess {
+            Guess::Extrapolated => history.extrapolate(increment),
+            Guess::Zero => increment.fill(T::lift(0.0)),
+        }
         if let Some(shift) = shift {
             increment.iter_mut().zip(shift.iter()).for_each(|(delta, &shift)| *delta += shift);
         }
