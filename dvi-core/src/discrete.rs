@@ -41,7 +41,7 @@ pub(crate) struct Departing<'a, S: System, T: Real, N> {
 }
 
 impl<S: Lagrangian<T>, T: Real, N: Nodes<T>> Linearize<T> for Departing<'_, S, T, N> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn linearize<K: Sink<T>>(
         &mut self,
         delta: &[T],

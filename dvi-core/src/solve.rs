@@ -84,7 +84,7 @@ const STEPS_BEFORE_RETRY: u32 = 32;
 pub(crate) trait Iteration<T> {
     /// Does what is due, in a loop of its own: what an improvement reads and does not change can stay in
     /// registers then. What is left to do is left to [`improve`](Self::improve).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn prepare(&mut self, _due: &mut Due) {}
 
     /// Applies a correction and returns the largest of its sizes in the units of the coordinates, after it

@@ -56,7 +56,7 @@ const SERIES: [[f64; 8]; 2] = {
 };
 
 /// Σ cₖ zᵏ, by pairs of pairs, so that the terms do not wait for one another.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 fn sum_series<T: Real>(c: &[f64; 8], z: T) -> T {
     let (square, c) = (z * z, |k: usize| T::lift(c[k]));
     let fourth = square * square;
@@ -67,7 +67,7 @@ fn sum_series<T: Real>(c: &[f64; 8], z: T) -> T {
 
 impl<T: Real> Pair<T> {
     /// κ(z) and σ(z), z = u².
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn at(u: T) -> Self {
         let z = u * u;
         if z <= T::lift(SERIES_TO) {
@@ -77,7 +77,7 @@ impl<T: Real> Pair<T> {
         Self { cosine, sinc: sine / u }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn series(z: T) -> Self {
         Self { cosine: sum_series(&SERIES[0], z), sinc: sum_series(&SERIES[1], z) }
     }
@@ -112,7 +112,7 @@ impl<T: Real> Bases<T> {
     }
 
     /// κ and σ at (1 − c)u and at cu.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn pairs(&self, c: f64) -> [Pair<T>; 2] {
         let one = Pair { cosine: T::lift(1.0), sinc: T::lift(1.0) };
         if c == 0.5 {

@@ -62,7 +62,7 @@ impl<T: Real> Node<T> {
     }
 
     /// Adds its second derivative by two ends, at which `work` stands; sets ∂L/∂q and ∂L/∂v there.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn add_second<S: Lagrangian<T>, K: Sink<T>>(
         &self,
         [[b, d], [c, e]]: [[T; 2]; 2],

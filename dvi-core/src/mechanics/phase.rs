@@ -134,7 +134,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         self.last_step = T::lift(0.0);
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn remember(&mut self, increment: &[T], h: T) {
         if !self.extrapolates_to(h) {
             self.history.clear();
@@ -144,7 +144,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     }
 
     /// Sets coordinates, momentum and force where sums are plain.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn set(&mut self, q: &mut [T], to: &Arrival<'_, T>) {
         q.copy_from_slice(to.q);
         self.p.copy_from_slice(to.p);

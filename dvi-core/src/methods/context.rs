@@ -83,7 +83,7 @@ impl<S: Lagrangian<T>, T: Real> Steps<'_, S, T> {
     ///
     /// # Errors
     /// That of the step that fails.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub fn one_by_one<M: Method<S, T> + ?Sized>(
         self,
         method: &M,

@@ -49,7 +49,7 @@ pub(crate) fn mean<T: Real>(a: &[T], b: &[T], mean: &mut [T]) {
 }
 
 /// 1/`pivot`, for a pivot of a matrix: an error if that is not a finite number.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn reciprocal<T: Real>(pivot: T, column: usize) -> Result<T, StepFailure> {
     let reciprocal = T::lift(1.0) / pivot;
     if reciprocal.is_finite() { Ok(reciprocal) } else { Err(singular(pivot, column)) }

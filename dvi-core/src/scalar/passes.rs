@@ -21,7 +21,7 @@ const BLOCK: usize = 256;
 
 /// The blocks of `n` coordinates, for what passes over them several times: what they are read for stays in
 /// the first cache meanwhile.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn blocks(n: usize) -> impl Iterator<Item = Range<usize>> {
     (0..n).step_by(BLOCK).map(move |start| start..n.min(start + BLOCK))
 }
@@ -35,7 +35,7 @@ pub(crate) fn add<T: Real>(x: &[T], delta: &[T], sum: &mut [T]) {
 }
 
 /// A kick of the momentum, p ← p + a F, or a drift of the point, q ← q + a v.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn kick<T: Real>(p: &mut [T], a: T, force: &[T]) {
     for (p, &force) in p.iter_mut().zip(force) {
         *p += a * force;

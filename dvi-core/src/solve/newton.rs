@@ -79,7 +79,7 @@ pub(crate) fn residual<T: Real>(
 /// # Errors
 /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`], or those of the
 /// equations.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn solve_by_newton<S: System, T: Real, J: Judge<T>>(
     equations: &mut impl Linearize<T>,
     system: &S,

@@ -194,7 +194,7 @@ impl Due {
     }
 
     /// The same where the iterate is put to the test.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn test<S: System, T: Real, X: Unknowns<T>>(
         &mut self,
         system: &S,
@@ -269,7 +269,7 @@ pub(crate) fn largest<T: Real>(weights: &[T], changes: &[T]) -> T {
 }
 
 /// Takes `change` from the unknown `x`, and returns its size.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn reduce<S: System, T: Real>(system: &S, weights: &[T], x: &mut [T], change: &[T]) -> T {
     subtract(x, change);
     larger(T::lift(0.0), size_of(system, weights, change))
@@ -277,7 +277,7 @@ pub(crate) fn reduce<S: System, T: Real>(system: &S, weights: &[T], x: &mut [T],
 
 /// The size of a change of all coordinates, of which those of a block have one weight. No zero is among what
 /// is compared, which saves RATTLE 2 of 279 instructions; so a first change that is not a number counts.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn size_of<S: System, T: Real>(system: &S, weights: &[T], change: &[T]) -> T {
     let mut largest = None;
     for block in blocks(system) {
@@ -294,13 +294,13 @@ pub(crate) fn size_of<S: System, T: Real>(system: &S, weights: &[T], change: &[T
 
 /// Sets the unknown `x` to `new`, and returns the size of the largest change; one that is not a number does
 /// not count.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn renew<T: Real>(weights: &[T], x: &mut [T], new: &[T]) -> T {
     improve(weights, x, new, |x, new| new - core::mem::replace(x, new))
 }
 
 /// Adds `change` to the unknown `x`, and returns the size of the largest; as [`renew`].
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn add<T: Real>(weights: &[T], x: &mut [T], change: &[T]) -> T {
     improve(weights, x, change, |x, change| {
         *x += change;

@@ -327,7 +327,7 @@ impl<T: Real> Judge<T> for Convergence<T> {
         Self { course, trial: Trial::None, kept, least: T::lift(f64::INFINITY) }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn judge(&mut self, correction: T) -> Verdict {
         let Self { course, trial, .. } = self;
         let before = course.take(correction);

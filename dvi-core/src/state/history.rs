@@ -96,7 +96,7 @@ impl<S: System, T: Real> History<S, T> {
     }
 
     /// The same, times `factor`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn push_scaled(&mut self, increment: &[T], factor: T) {
         for (kept, &x) in self.ring[self.next].iter_mut().zip(increment) {
             *kept = x * factor;
@@ -114,7 +114,7 @@ impl<S: System, T: Real> History<S, T> {
 }
 
 /// Sets `guess` to the extrapolation of a full ring, of which the oldest increment is in place `at`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn extrapolate<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], at: usize, guess: &mut [P]) {
     combine(ring, &OF_PLACES[DEPTH][at], guess);
 }

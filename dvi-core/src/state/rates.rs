@@ -88,7 +88,7 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
 
 impl<S: System, T: Real> Kind<S, T> {
     /// Sets `rates` to what the last `len` lead to.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn extrapolate(&self, newest: usize, len: usize, rates: &mut [T]) {
         // The full sum has a known length and makes straight code.
         match len {

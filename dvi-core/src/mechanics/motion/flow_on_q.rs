@@ -38,7 +38,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     fn gather(_equations: &mut FlowOnQ<S, T>, q: &Vector<S, T>, y: &mut Self::Point<T>) {
         y.0[0].copy_from_slice(q);
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn evaluate_part(
         equations: &mut FlowOnQ<S, T>,
         system: &S,

@@ -31,7 +31,7 @@ pub struct HamiltonsEquations<S: System, T: Real> {
 
 impl<S: NondegenerateLagrangian<T>, T: Real> HamiltonsEquations<S, T> {
     /// Sets `v` to M⁻¹(`p` − a), if M is constant.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn divide(&self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) {
         if S::CONSTANT_MASS {
             return self.mass.solve(p, v);
@@ -100,7 +100,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             slope.0[0].copy_from_slice(latest);
         }
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn evaluate_part(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,

@@ -148,7 +148,7 @@ const REACH: [f64; 2] = [-3.0, 2.0];
 /// The Lagrange polynomials through `N` stages, in columns: where the stages of the next step are whose
 /// nodes are `c` and whose length is `ratio` times that of the step before. Row k of `lagrange` is in terms
 /// of the Legendre polynomial of degree k.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(in crate::methods) fn continuation<const STAGES: usize, const N: usize, T: Real>(
     lagrange: &[[T; N]; N],
     c: Lanes<STAGES, T>,
@@ -160,7 +160,7 @@ pub(in crate::methods) fn continuation<const STAGES: usize, const N: usize, T: R
 }
 
 /// The Lagrange polynomials at points `x` of the step, whose ends are 0 and 1, or beyond.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(in crate::methods) fn lagrange_at<const STAGES: usize, const N: usize, T: Real>(
     lagrange: &[[T; N]; N],
     x: Lanes<STAGES, T>,

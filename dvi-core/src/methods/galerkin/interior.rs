@@ -132,7 +132,7 @@ where
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn remember(&mut self, h: T) {
         self.completed[0].copy_from_slice(&self.forces);
         self.first.copy_from_slice(&self.start);
@@ -246,7 +246,6 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             combine(
                 &columns[1..=Self::COUNT],
                 &completed[0],
-                #[cfg_attr(not(debug_assertions), inline(always))]
                 |k| {
                     let ends = columns[0] * Lanes::all(first[k]) + columns[NODES - 1] * Lanes::all(force[k]);
                     (T::lift(0.0), ends)

@@ -92,7 +92,7 @@ where
         Ok(PhaseMemory { carried, ladder, own: path })
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let PhaseMemory { carried, ladder, own: path } = memory;

@@ -180,7 +180,7 @@ impl<const COMPENSATED: bool, S, T: Real, P: Fn(usize, T) -> T> Iteration<T>
 where
     S: DegenerateLagrangian<T>,
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn prepare(&mut self, due: &mut Due) {
         due.prepare(self.step.system, self.weights, self.q, self.increment);
         if Nodes::<COMPENSATED, S, T, P>::IS_LONG {

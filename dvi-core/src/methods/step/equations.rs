@@ -97,29 +97,25 @@ pub(in crate::methods) trait Equations<S: Lagrangian<T>, T: Real> {
     ) -> Result<(), StepFailure>;
 
     /// The kinetic part.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn kinetic(&self, _coefficients: &Self::Coefficients) -> Kinetic<T> {
         Kinetic::of_mean_velocity()
     }
 
     /// Whether r is linear in Δ, with −(κ/h)M as its derivative, if L is separable.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn is_explicit(&self) -> bool {
         false
     }
 }
 
 /// Sets `force` to that at a point at time `t`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(in crate::methods) fn set_force<S: NondegenerateLagrangian<T>, T: Real>(
     system: &S,
     point: &[T],
     t: T,
     force: &mut [T],
 ) {
-    apart_if(
-        !<S::Space as Space>::ON_STACK,
-        #[cfg_attr(not(debug_assertions), inline(always))]
-        || system.force(point, &[], t, force),
-    );
+    apart_if(!<S::Space as Space>::ON_STACK, || system.force(point, &[], t, force));
 }

@@ -34,7 +34,7 @@ pub(in crate::methods) struct Work<S: System, T: Real> {
 }
 
 impl<S: Lagrangian<T>, T: Real> Work<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(in crate::methods) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self {

@@ -59,7 +59,7 @@ pub(super) struct Coefficients<T> {
 
 impl<T: Real> Coefficients<T> {
     /// For u = 0, linear interpolation.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn linear(rule: &impl Rule) -> Self {
         let zero = T::lift(0.0);
         let (mut weights, mut bases) = ([zero; NODES], [Basis::linear(0.0); NODES]);
@@ -110,7 +110,7 @@ impl<T: Real> Coefficients<T> {
 
     /// Where the frequency does not depend on the motion: makes these the coefficients of a step of length
     /// `h`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn fix<F: Frequency, R: Rule>(
         &mut self,
         Variational { rule, frequency, fitting, .. }: &Variational<F, R>,
@@ -146,7 +146,7 @@ impl<T: Real> Coefficients<T> {
     }
 
     /// Sets `point` to qʲ of a node.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn place_point(&self, node: usize, [q0, delta]: [&[T]; 2], point: &mut [T]) {
         let Basis { b, b_bar, .. } = self.bases[node];
         for ((point, &q), &delta) in point.iter_mut().zip(q0).zip(delta) {

@@ -113,7 +113,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
 
     type Coefficients = Coefficients<T>;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn begin(
         &mut self,
         begin: &Begin<'_, S, T>,
@@ -204,7 +204,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
     }
 
     /// κ is the stiffness of the fitted oscillator, so that only what differs from it is iterated.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn kinetic(&self, coefficients: &Coefficients<T>) -> Kinetic<T> {
         coefficients.sums
     }
