@@ -125,27 +125,38 @@ pub mod oracle {
         (0..y.len()).map(|i| y[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i])).collect()
     }
 
-    /// A point at which a gradient vanishes, from zero by Newton's method with its differences, up to
-    /// rounding; nothing where its matrix is singular.
-    pub fn stationary(size: usize, gradient: impl Fn(&DVector<f64>) -> DVector<f64>) -> Option<Vec<f64>> {
-        let mut x = DVector::zeros(size);
-        for _ in 0..if size > 0 { 20 } else { 0 } {
-            let column = |j: usize| {
-                let shifted = |by: f64| {
-                    let mut x = x.clone();
-                    x[j] += by;
-                    gradient(&x)
+    /// Where a function vanishes, from `x` by Newton's method with its differences of about `apart`, up to
+    /// rounding; nothing where its matrix is singular. A matrix is kept as long as it brings a digit.
+    pub fn root(
+        mut x: DVector<f64>,
+        apart: f64,
+        f: impl Fn(&DVector<f64>) -> DVector<f64>,
+    ) -> Option<DVector<f64>> {
+        let (mut last, mut matrix) = (f64::INFINITY, None);
+        for _ in 0..if x.is_empty() { 0 } else { 30 } {
+            let column = |k: usize| {
+                let by = apart * (1.0 + f64::abs(x[k]));
+                let at = |sign: f64| {
+                    let mut moved = x.clone();
+                    moved[k] += sign * by;
+                    f(&moved)
                 };
-                (shifted(1e-4) - shifted(-1e-4)) / 2e-4
+                (at(1.0) - at(-1.0)) / (2.0 * by)
             };
-            let columns: Vec<DVector<f64>> = (0..size).map(column).collect();
-            let change = DMatrix::from_columns(&columns).lu().solve(&gradient(&x))?;
+            let inverse = matrix.take().unwrap_or_else(|| {
+                let columns: Vec<DVector<f64>> = (0..x.len()).map(column).collect();
+                DMatrix::from_columns(&columns).lu()
+            });
+            let change = inverse.solve(&f(&x))?;
             x -= &change;
-            if change.amax() < 1e-16 * x.amax() {
+            let (now, size) = (change.amax(), x.amax());
+            if now <= 1e-16 * size || now < 1e-10 * size && now >= last {
                 break;
             }
+            matrix = (now < 0.1 * last).then_some(inverse);
+            last = now;
         }
-        Some(x.as_slice().to_vec())
+        Some(x)
     }
 }
 

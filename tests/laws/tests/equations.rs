@@ -14,7 +14,7 @@ use dvi_laws::formula::dual;
 use dvi_laws::subject::{Subject, defect, size};
 use dvi_laws::{Case, NOT_STIFF, STIFF, stiff};
 use dvi_tests::{larger, oracle};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::{Outcome, ask, below, of_every_kind};
 
@@ -62,11 +62,11 @@ impl Step<'_> {
             let [_, _, inside] = work(x.as_slice());
             DVector::from_fn(unknowns, |i, _| value(None, None, x.as_slice(), Some(i)) + inside[i])
         };
-        let x = oracle::stationary(unknowns, gradient).ok_or("a regular matrix")?;
-        let [left, right, _] = work(&x);
+        let x = oracle::root(DVector::zeros(unknowns), 1e-4, gradient).ok_or("a regular matrix")?;
+        let (x, [left, right, _]) = (x.as_slice(), work(x.as_slice()));
         Ok([
-            (0..n).map(|i| value(Some(i), None, &x, None) + left[i]).collect(),
-            (0..n).map(|i| value(None, Some(i), &x, None) + right[i]).collect(),
+            (0..n).map(|i| value(Some(i), None, x, None) + left[i]).collect(),
+            (0..n).map(|i| value(None, Some(i), x, None) + right[i]).collect(),
         ])
     }
 
@@ -175,34 +175,11 @@ impl Stages<'_> {
     fn solve(&self) -> Option<[Vec<f64>; 2]> {
         let (n, stages, v) = (self.p.len(), self.tableau.b.len(), self.step.v()[0]);
         let guess = |i: usize| if v.is_empty() { 0.0 } else { v[i % n] };
-        let mut velocities = DVector::from_fn(n * stages, |i, _| guess(i));
-        let (mut last, mut matrix) = (f64::INFINITY, None);
-        for _ in 0..30 {
+        let residuals = |velocities: &DVector<f64>| {
             let [residuals, _] = self.residuals(velocities.as_slice());
-            let column = |k: usize| {
-                let difference = 1e-6 * (1.0 + f64::abs(velocities[k]));
-                let at = |sign: f64| {
-                    let mut moved = velocities.clone();
-                    moved[k] += sign * difference;
-                    let [residuals, _] = self.residuals(moved.as_slice());
-                    DVector::from_vec(residuals)
-                };
-                (at(1.0) - at(-1.0)) / (2.0 * difference)
-            };
-            let inverse = matrix.take().unwrap_or_else(|| {
-                let columns: Vec<DVector<f64>> = (0..n * stages).map(column).collect();
-                DMatrix::from_columns(&columns).lu()
-            });
-            let change = inverse.solve(&DVector::from_vec(residuals))?;
-            velocities -= &change;
-            let now = change.amax();
-            if now < 1e-15 * velocities.amax() || now < 1e-10 && now >= last {
-                break;
-            }
-            // As long as it brings a digit.
-            matrix = (now < 0.1 * last && last.is_finite()).then_some(inverse);
-            last = now;
-        }
+            DVector::from_vec(residuals)
+        };
+        let velocities = oracle::root(DVector::from_fn(n * stages, |i, _| guess(i)), 1e-6, residuals)?;
         let [_, forces] = self.residuals(velocities.as_slice());
         let impulse =
             |i: usize| self.tableau.b.iter().enumerate().map(|(j, b)| b * forces[j * n + i]).sum::<f64>();
