@@ -145,7 +145,7 @@ pub struct Case {
     begin: Box<Begin<f64, dyn Written>>,
     resume: Box<Resume>,
     vary: Box<Begin<Dual64, dyn Steps<Dual64>>>,
-    copy: Box<dyn Fn(u32) -> Outcome>,
+    copy: Box<dyn Fn([u32; 2]) -> Outcome>,
 }
 
 impl Debug for Case {
@@ -173,7 +173,7 @@ impl Case {
         let (order, symmetric) = (order.unwrap_or_else(|| method.order()), method.is_symmetric());
         let form = method.preserved_form();
         let (begun, resumed, copied) = (method.clone(), method.clone(), method);
-        let (start, quarter) = (subject.start.clone(), subject.steps / 4);
+        let start = subject.start.clone();
         Self {
             name,
             subject: Rc::clone(subject),
@@ -194,9 +194,7 @@ impl Case {
                 let [t, h] = [t, h].map(Dual64::from);
                 Ok(Box::new(Integrator::new_at(system, varied.clone(), t, h, state(system, q, v))?))
             }),
-            copy: Box::new(move |before| {
-                copied_runs_go_on(system, &copied, &start, [t, h], [before, quarter])
-            }),
+            copy: Box::new(move |steps| copied_runs_go_on(system, &copied, &start, [t, h], steps)),
         }
     }
 
@@ -244,31 +242,32 @@ impl Case {
         (self.vary)(at, values)
     }
 
-    /// Whether a run on a memory that is restored from another goes on as that, after so many steps.
+    /// Whether a run on a memory of so many steps that is restored from another, `before` steps from its
+    /// start, goes on as that for as many.
     ///
     /// # Errors
     /// What is not the same, and failures.
-    pub fn goes_on_from_a_copy(&self, before: u32) -> Outcome {
-        (self.copy)(before)
+    pub fn goes_on_from_a_copy(&self, before: u32, steps: u32) -> Outcome {
+        (self.copy)([before, steps])
     }
 }
 
-/// Restores the memory of a run, made another way, from one that has taken `before` steps, and goes on
-/// with both.
+/// Restores the memory of a run of so many steps from one that has taken `before` steps, and goes on with
+/// both.
 fn copied_runs_go_on<S: Lagrangian + 'static, M: Method<S, f64> + Clone>(
     system: &'static S,
     method: &M,
     [q, v]: &[Vec<f64>; 2],
     at: [f64; 2],
-    [before, quarter]: [u32; 2],
+    [before, steps]: [u32; 2],
 ) -> Outcome {
     let [mut kept, mut other] = [bare(system, method, [q, v], at)?, bare(system, method, [q, v], at)?];
-    (0..quarter).try_for_each(|_| other.advance())?;
+    (0..steps).try_for_each(|_| other.advance())?;
     (0..before).try_for_each(|_| kept.advance())?;
     other.memory.restore(&kept.memory);
     other.q.copy_from_slice(&kept.q);
     other.taken = kept.taken;
-    for step in 0..quarter {
+    for step in 0..steps {
         kept.advance()?;
         other.advance()?;
         if bits(&kept.values()) != bits(&other.values()) {

@@ -53,9 +53,10 @@ fn runs_and_their_checkpoints_go_on(
 pub(super) fn runs_go_on(case: &Case) -> Outcome {
     // Guesses are made from seven steps; what is seen of parasites, where states have momenta of their own,
     // from more.
-    let steps = case.subject.steps.min(if case.has_hidden_state() { u32::MAX } else { 24 }).into();
-    runs_and_their_checkpoints_go_on(steps, || case.run(), |checkpoint| case.resume(checkpoint))?;
-    [0, 1, steps / 2].iter().try_for_each(|&before| case.goes_on_from_a_copy(before as u32))
+    let steps = case.subject.steps.min(if case.has_hidden_state() { u32::MAX } else { 24 });
+    runs_and_their_checkpoints_go_on(steps.into(), || case.run(), |checkpoint| case.resume(checkpoint))?;
+    let few = (case.subject.steps / 4).min(steps / 3);
+    [0, 1, steps / 2].iter().try_for_each(|&before| case.goes_on_from_a_copy(before, few))
 }
 
 of_every_kind!(runs_go_on);
