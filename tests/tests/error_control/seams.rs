@@ -63,7 +63,7 @@ fn seams_are_what_formulas_compare() {
 }
 
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.abs())]
-pub(super) struct Well;
+pub(crate) struct Well;
 
 /// The same with a function of its own in the place of `abs`, into which the compiler does not see.
 #[lagrangian(

@@ -7,6 +7,7 @@ use dvi_tests::{Outcome, bits};
 
 use super::PLANAR;
 use super::edges::{Ball, BallState};
+use crate::error_control::seams::{Well, WellState};
 
 /// From the state of an event on, a run is one that begins there; one that cannot begin stays where it was.
 #[test]
@@ -62,25 +63,22 @@ fn an_event_is_left_behind_where_the_same_state_is_set() -> Outcome {
     Ok(())
 }
 
-/// Two parabolas, at whose seam steps end.
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.abs())]
-struct Corner;
-
-/// Steps that begin or end at a seam may be as short as the rounding of the time.
+/// Two parabolas, at whose seam steps end: those that begin or end there may be as short as the rounding of
+/// the time.
 #[test]
 fn a_change_at_a_seam_is_made_once() -> Outcome {
     for factor in [1.0, 0.9, -1.0] {
         for x in (0..40).map(|k| 0.3 + 0.0355 * f64::from(k)) {
-            let start = CornerState { x, dot_x: 0.0 };
+            let start = WellState { x, dot_x: 0.0 };
             let control = ErrorControl::new(1e-9, 0.1);
-            let mut run = Integrator::controlled(&Corner, Gauss::<4>::new(), control, start)?;
+            let mut run = Integrator::controlled(&Well, Gauss::<4>::new(), control, start)?;
             let mut events = run.events([Direction::Either], |_, state| [state.x])?;
             let mut speed = (2.0 * x).sqrt();
             let mut expected = speed;
             for _ in 0..12 {
                 let Some(Event { time, state, .. }) = events.next_until(60.0)? else { panic!("{expected}") };
                 assert!(abs_diff_eq!(time, expected, epsilon = 1e-11), "{x} {factor}: {time} {expected}");
-                events.set_state(time, CornerState { dot_x: factor * state.dot_x, ..state })?;
+                events.set_state(time, WellState { dot_x: factor * state.dot_x, ..state })?;
                 speed *= factor.abs();
                 expected += 2.0 * speed;
             }
