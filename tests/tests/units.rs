@@ -75,7 +75,7 @@ fn end<const N: usize, S: InUnits<N>, M: Method<S, f64>>(
 fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone + Debug>(method: M) {
     let name = format!("{method:?} on {}", S::REPORT.system);
     // The guess is that of all increments after the seventh.
-    let steps = 12;
+    let steps = 9;
     let plain =
         end::<N, S, M>(([0; N], 0), method.clone(), steps).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert!(plain.iter().all(|x| x.is_finite()) && plain != S::start(), "{name}: {plain:?}");
