@@ -124,7 +124,7 @@ fn redundant_and_inconsistent_constraints_are_named() {
 #[test]
 fn far_and_near_states_are_projected() -> Outcome {
     let at = |x: f64, y: f64| PendulumState { x, y, dot_x: -y.signum(), dot_y: x.signum() };
-    for exponent in -153..=153 {
+    for exponent in (-153..=153).step_by(3) {
         let size = 10_f64.powi(exponent);
         for (x, y) in [(1.0, 0.5), (1.0, 0.0), (0.0, -1.0), (-0.3, 0.7), (1.0, 1e-10), (-1e-5, -1.0)] {
             let found = PENDULUM.projected(0.0, &at(size * x, size * y))?;
