@@ -36,7 +36,7 @@ fn end<S: Lagrangian + ByHand<N>, const N: usize>(system: &S, start: &S::State<f
     Ok([q, v].concat())
 }
 
-/// The order over five runs, the coarsest of which has `steps` steps.
+/// The order over 24 runs, the coarsest of which has `steps` steps.
 ///
 /// The error of a run with impacts is no smooth function of the step, because it depends on where in a step
 /// the impacts are; so there are many runs.
