@@ -112,7 +112,7 @@ impl<T: Real> Bases<T> {
     }
 
     /// κ and σ at (1 − c)u and at cu.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn pairs(&self, c: f64) -> [Pair<T>; 2] {
         let one = Pair { cosine: T::lift(1.0), sinc: T::lift(1.0) };
         if c == 0.5 {

@@ -195,7 +195,8 @@ fn iterate_by_mass<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E:
                     }
                     change[i] = missing * per_stiffness;
                 }
-                largest = norm::larger(largest, sizes::add(&weights[block], delta, change));
+                largest =
+                    norm::larger(largest, sizes::improve(&weights[block], delta, change, sizes::added));
             }
             Ok(largest)
         },

@@ -292,26 +292,23 @@ pub(crate) fn size_of<S: System, T: Real>(system: &S, weights: &[T], change: &[T
     largest.unwrap_or(T::lift(0.0))
 }
 
-/// Sets the unknown `x` to `new`, and returns the size of the largest change; one that is not a number does
-/// not count.
+/// By which [`improve`] adds a change.
 #[inline]
-pub(crate) fn renew<T: Real>(weights: &[T], x: &mut [T], new: &[T]) -> T {
-    improve(weights, x, new, |x, new| new - core::mem::replace(x, new))
+pub(crate) fn added<T: Real>(x: &mut T, change: T) -> T {
+    *x += change;
+    change
 }
 
-/// Adds `change` to the unknown `x`, and returns the size of the largest; as [`renew`].
+/// By which [`improve`] takes a new number.
 #[inline]
-pub(crate) fn add<T: Real>(weights: &[T], x: &mut [T], change: &[T]) -> T {
-    improve(weights, x, change, |x, change| {
-        *x += change;
-        change
-    })
+pub(crate) fn replaced<T: Real>(x: &mut T, new: T) -> T {
+    new - core::mem::replace(x, new)
 }
 
 /// Improves each unknown by a number, and returns the size of the largest change: eight that do not wait for
-/// one another if there are many.
+/// one another if there are many. A change that is not a number does not count.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn improve<T: Real>(weights: &[T], x: &mut [T], by: &[T], one: impl Fn(&mut T, T) -> T) -> T {
+pub(crate) fn improve<T: Real>(weights: &[T], x: &mut [T], by: &[T], one: impl Fn(&mut T, T) -> T) -> T {
     let one_by_one = |weights: &[T], x: &mut [T], by: &[T]| {
         x.iter_mut().zip(by).zip(weights).fold(T::lift(0.0), |largest, ((x, &by), &weight)| {
             larger(largest, Scalar::abs(one(x, by)) * weight)

@@ -207,7 +207,10 @@ where
             #[cfg_attr(not(debug_assertions), inline(always))]
             |block, s| {
                 let (origin, increment) = (&origin[block.clone()], &mut increment[block.clone()]);
-                largest = norm::larger(largest, sizes::renew(&weights[block.clone()], increment, s));
+                largest = norm::larger(
+                    largest,
+                    sizes::improve(&weights[block.clone()], increment, s, sizes::replaced),
+                );
                 if Nodes::<COMPENSATED, S, T, P>::IS_LONG {
                     place([origin, increment], sigma, (block.start, &*part), &mut point[block]);
                 }

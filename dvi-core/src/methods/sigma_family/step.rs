@@ -88,7 +88,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             let span = Span { system, interval: step.interval(), q0: q, delta };
             l_d.derivatives(span, residual, sum, statistics);
             inverse.solve(system, residual, change);
-            Ok(sizes::add(weights, delta, change))
+            Ok(sizes::improve(weights, delta, change, sizes::added))
         };
         solve_by_fixed_point((system, q), storage, criterion, statistics, correct)
     }
