@@ -194,7 +194,7 @@ impl Due {
     }
 
     /// The same where the iterate is put to the test.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn test<S: System, T: Real, X: Unknowns<T>>(
         &mut self,
         system: &S,

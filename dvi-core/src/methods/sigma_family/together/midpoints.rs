@@ -112,17 +112,6 @@ struct Midpoints<'a, const W: usize, S: System> {
 }
 
 impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
-    /// Takes sizes as [`Due`](crate::solve::Due) does.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take_sizes(&mut self) {
-        for block in sizes::blocks(self.system) {
-            let of = |k: usize| Scalar::abs(self.q[k]) + Scalar::abs(self.increment[k]);
-            let size = block.clone().map(of).fold(Lanes::all(0.0), Lanes::larger);
-            let weight = Lanes::all(1.0) / (size + Lanes::all(smallest_normal::<f64>()));
-            self.weights[block].fill(weight);
-        }
-    }
-
     /// Takes a step and counts the iterations of each run. Returns whether there is one that all runs agree
     /// on; nothing has moved else.
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -133,7 +122,13 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         let time = Lanes::all(time.time() + 0.5 * time.step_size());
         loop {
             if convergence.takes_sizes() {
-                self.take_sizes();
+                // As `Due` does.
+                for block in sizes::blocks(self.system) {
+                    let of = |k: usize| Scalar::abs(self.q[k]) + Scalar::abs(self.increment[k]);
+                    let size = block.clone().map(of).fold(Lanes::all(0.0), Lanes::larger);
+                    let weight = Lanes::all(1.0) / (size + Lanes::all(smallest_normal::<f64>()));
+                    self.weights[block].fill(weight);
+                }
             }
             let correction = self.iterate(time, convergence.active());
             match convergence.judge(correction) {
