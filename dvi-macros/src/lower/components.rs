@@ -8,7 +8,7 @@ use super::{Lowering, Role, Value, all};
 use crate::errors::{here, listed, nearest};
 use crate::model::Block;
 use crate::symbolic::{Atom, Contribution, Coordinate, Expr, Fold, Index, Loop, Node, Range};
-use crate::syntax::Force;
+use crate::syntax::{Factor, Force};
 use crate::words::AREA;
 
 /// A component of a covector: its value at the entry `index` of a block, in the loop over that block if it
@@ -127,9 +127,15 @@ impl Lowering<'_> {
         let Block { name, array, axis, grid, .. } = &self.model.blocks[first];
         let (name, axis, is_grid) = (name.to_string(), *axis, grid.is_some());
         let whole = self.model.whole(first);
+        if self.model.blocks[first].factor == Factor::Rotation {
+            return None; // refused where it is declared
+        }
         if self.model.blocks[first].is_spinor() {
             let message = match role {
-                Role::Force => format!("no force acts on the unit vector `{name}`: forces are on numbers"),
+                Role::Force => format!(
+                    "no force acts on the unit vector `{name}`: forces are on numbers, such as its height z and \
+                     its longitude phi, with `-kappa * z * d(phi)` for the area"
+                ),
                 _ => format!(
                     "the one-form along a unit vector is an area: write the one-form as a sum of terms, with `{AREA}({})` in it",
                     self.model.blocks[first].label()

@@ -11,7 +11,7 @@ use syn::spanned::Spanned;
 use syn::visit_mut::{self, VisitMut};
 use syn::{Block, Expr, ExprClosure, Local, Pat, parse_quote_spanned};
 
-use super::{Attribute, Declaration, Factor, Kind, bound, ident, literal};
+use super::{Attribute, Constrained, Declaration, Factor, Kind, bound, ident, literal};
 use crate::errors::{Errors, text};
 
 /// The angular velocity of a rotation, in the body.
@@ -34,22 +34,26 @@ impl Attribute {
         let refused = if !is_regular {
             let regular = Kind::Regular.attribute();
             Some(format!("rotations are coordinates of regular systems, in `{regular}`"))
-        } else if let Some(of) = self.constrained {
-            let numbers = match first.factor {
-                Factor::Rotation => format!("a rotation as numbers is `{first}[9]`, with six constraints"),
-                Factor::Sphere | Factor::Line => {
-                    format!("a unit vector as numbers is `{first}[3]`, with its length as a constraint")
-                }
-            };
-            Some(format!(
-                "a system with rotations or unit vectors has no `{}` yet: {numbers}",
-                of.words().word
-            ))
-        } else if !self.forces.is_empty() || self.dissipation.is_some() {
-            let word = if self.forces.is_empty() { "dissipation" } else { "force" };
-            Some(format!("a system with rotations or unit vectors has no forces yet: leave `{word}` out"))
         } else {
-            None
+            let force = (!self.forces.is_empty()).then_some("force");
+            let acting = force.or(self.dissipation.as_ref().map(|_| "dissipation"));
+            self.constrained.map(|of| of.words().word).or(acting).map(|word| {
+                let (what, size, constraints, angles) = match first.factor {
+                    Factor::Rotation => ("a rotation", 9, "six constraints", "three"),
+                    Factor::Sphere | Factor::Line => ("a unit vector", 3, "its length as a constraint", "two"),
+                };
+                let numbers = match self.constrained {
+                    Some(Constrained::Gaps) => format!("{angles} angles"),
+                    Some(Constrained::Velocities) => format!(
+                        "`{first}[{size}]`, with {constraints}, of which the rate of change is declared by \
+                         `{word} = …` too"
+                    ),
+                    Some(Constrained::Positions) | None => format!("`{first}[{size}]`, with {constraints}"),
+                };
+                format!(
+                    "a system with rotations or unit vectors has no `{word}` yet: {what} as numbers is {numbers}"
+                )
+            })
         };
         if let Some(message) = refused {
             errors.push(name, message);

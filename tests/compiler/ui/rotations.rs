@@ -67,11 +67,7 @@ struct MassesU;
 )]
 struct BesideS;
 
-#[lagrangian(
-    coordinates(s: S2),
-    lagrangian = sum(0..3, |i| dot(s[i]).powi(2)),
-    force(s) = |i| -dot(s[i]),
-)]
+#[lagrangian(coordinates(s: S2), lagrangian = dot(s).norm_squared(), dissipation = dot(s).norm_squared())]
 struct BesideT;
 
 #[lagrangian(
@@ -80,6 +76,12 @@ struct BesideT;
     impact = x - R[2][2],
 )]
 struct BesideU;
+
+#[lagrangian(coordinates(R: SO3), lagrangian = omega(R).norm_squared(), force(R) = -0.1 * omega(R))]
+struct BesideV;
+
+#[lagrangian(coordinates(R: SO3), lagrangian = omega(R).norm_squared(), nonholonomic = omega(R)[1])]
+struct BesideW;
 
 mod methods {
     use super::*;
