@@ -165,19 +165,21 @@ impl Attribute {
             return;
         }
         if before != of {
+            let either = "a system has either constraints or impacts";
             let (what, advice) = match (before, of) {
-                (Constrained::Gaps, _) | (_, Constrained::Gaps) => (
-                    "a system has either constraints or impacts",
-                    "choose the coordinates so that the constraints hold".to_string(),
+                (Constrained::Gaps, Constrained::Velocities)
+                | (Constrained::Velocities, Constrained::Gaps) => (
+                    either,
+                    "declare the surface by `events(name = g)`, and change the state where it is met",
                 ),
-                (Constrained::Positions | Constrained::Velocities, _) => {
-                    let rates = Constrained::Velocities.words().word;
-                    let advice = format!(
-                        "choose the coordinates so that the constraints of the positions hold, or declare \
-                         their rates of change by `{rates} = …` too"
-                    );
-                    ("a system has constraints of one kind", advice)
+                (Constrained::Gaps, _) | (_, Constrained::Gaps) => {
+                    (either, "choose the coordinates so that the constraints hold")
                 }
+                (Constrained::Positions | Constrained::Velocities, _) => (
+                    "a system has constraints of one kind",
+                    "choose the coordinates so that the constraints of the positions hold, or declare their rates \
+                     of change by `nonholonomic = …` too",
+                ),
             };
             let message = format!(
                 "{what}, and those before this one are declared by `{}`: {advice}",

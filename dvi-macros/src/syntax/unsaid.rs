@@ -2,7 +2,7 @@
 
 /// Words, and what stands in their place.
 #[rustfmt::skip]
-const UNSAID: [(&[&str], &str); 3] = [
+const UNSAID: [(&[&str], &str); 4] = [
     (&["poisson", "poisson_structure", "bracket", "brackets", "casimir", "casimirs"],
      "a Poisson structure is not declared by its matrix: where its Casimirs are constant it has a one-form, `one_form = … * d(x)`, in an \
       even number of coordinates"),
@@ -12,6 +12,7 @@ const UNSAID: [(&[&str], &str); 3] = [
     (&["equation", "equations", "ode", "rhs", "vector_field", "dot"],
      "the equations of motion are those of L: any q' = f(q, t) has `one_form = p * d(q)` and `hamiltonian = p * f` with a second \
       coordinate p for each"),
+    (&["restitution"], "it is that of the method: `Impacts { restitution, ..Impacts::reflecting(scheme) }`"),
 ];
 
 /// What to write instead of this argument, if it is known.

@@ -50,6 +50,16 @@ struct TwiceS;
 )]
 struct TwiceU;
 
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x - y,
+    impact = x,
+)]
+struct TwiceV;
+
+on_a_line! { OfTheMethod: impact = x, restitution = 0.5 }
+
 on_a_line! { OtherWordsS: wall = x }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + y * y, impact = x)]
