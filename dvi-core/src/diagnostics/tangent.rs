@@ -24,7 +24,7 @@ use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/pendulum.txt")]
-/// use dvi_core::discrete::Interval;
+/// use dvi_core::{Space, System, discrete::Interval};
 ///
 /// let method = Variational::trapezoid();
 /// let mut run = Integrator::new(&Pendulum, method, 0.1, start)?;
@@ -33,6 +33,11 @@ use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
 /// let mut map = TangentMap::new(&Pendulum, &method);
 /// map.evaluate(&Pendulum, Interval { t: 0.0, h: 0.1 }, &q0, run.q())?;
 /// assert!(map.symplectic_defect(&Pendulum) < 1e-15); // dq ∧ dp is preserved
+///
+/// let [mut dq, mut dp] = Pendulum.space().vectors::<f64, 2>();
+/// dq[0] = 1.0;
+/// map.apply(&mut dq, &mut dp); // where a start that is 1 further leads, to first order
+/// assert!((dq[0] - (1.0 - 0.1_f64.powi(2) / 2.0 * 1.0_f64.cos())).abs() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
