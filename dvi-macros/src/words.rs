@@ -121,3 +121,11 @@ pub(crate) fn callable() -> impl Iterator<Item = &'static str> {
 pub(crate) fn constant(name: &str) -> Option<(f64, &'static str)> {
     CONSTANTS.iter().find(|(known, ..)| *known == name).map(|(_, value, sign)| (*value, *sign))
 }
+
+#[test]
+fn the_page_of_the_language_lists_the_methods() {
+    let methods: Vec<&str> = callable().filter(|name| is_method(name)).collect();
+    let page = include_str!("../docs/degenerate_lagrangian.md").replace('\n', " ");
+    let list = format!("the methods {}.", crate::errors::listed(methods));
+    assert!(page.contains(&list), "{list}");
+}
