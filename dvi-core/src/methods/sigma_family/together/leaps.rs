@@ -39,7 +39,6 @@ where
                 kept.copy_from_slice(now);
             }
             wide_if!(true, {
-                let clock = clock;
                 for step in taken..taken + steps {
                     system.hamiltonian_gradient(q, Lanes::all(clock.after(step).time()), gradient);
                     let points = q.iter_mut().zip(ahead.iter_mut());
