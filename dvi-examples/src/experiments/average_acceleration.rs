@@ -69,24 +69,3 @@ pub fn is_midpoint(job: &Job<'_>, case: Case) -> Result<Claim> {
 fn acceleration(system: &RadialFriction, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|i: usize| -system.slope(&q) * q[i] - system.gamma * v[i])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_step_satisfies_the_equations_of_newmark() {
-        let start = RadialFrictionState { x: 1.2, y: 0.1, dot_x: -0.3, dot_y: 0.5 };
-        let before = AverageAcceleration::new(Case { gamma: 0.3, h: 0.2, end: 0.0 }, start);
-        let mut after = before.clone();
-        after.step();
-        let slope = after.system.slope(&after.q);
-        for i in 0..2 {
-            let moved = 0.2 * before.v[i] + 0.01 * (before.a[i] + after.a[i]);
-            assert!((after.q[i] - before.q[i] - moved).abs() < 1e-15);
-            let faster = 0.1 * (before.a[i] + after.a[i]);
-            assert!((after.v[i] - before.v[i] - faster).abs() < 1e-14);
-            assert!((after.a[i] + 0.3 * after.v[i] + slope * after.q[i]).abs() < 1e-12);
-        }
-    }
-}
