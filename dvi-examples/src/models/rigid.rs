@@ -66,7 +66,7 @@ impl Top {
     /// least action. The trapezoidal rule adds to it −(h³/12) V̈ with the second derivative along the
     /// geodesic. What a Lagrangian gains, the energy loses.
     pub fn shift(&self, state: &TopState) -> f64 {
-        let ([x, y, u], [a, b, c]) = (vertical(&state.R), state.omega_R);
+        let ([.., x, y, u], [a, b, c]) = (state.R, state.omega_R);
         let bent = c * (x * a + y * b + u * c) - u * (a * a + b * b + c * c);
         let inertia = [self.across, self.across, self.along];
         accelerated(inertia, self.acceleration([x, y, u], state.omega_R)) / 24.0 - self.weight * bent / 12.0
@@ -117,11 +117,6 @@ impl OnManifold<12> for RigidBody {
 /// A rotation has as many velocities as entries, of which the first three are ω.
 pub fn velocities([x, y, z]: [f64; 3]) -> [f64; 9] {
     [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
-}
-
-/// The direction of the third axis of space in the body.
-fn vertical(rotation: &[f64; 9]) -> [f64; 3] {
-    [rotation[6], rotation[7], rotation[8]]
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
