@@ -18,6 +18,8 @@ pub struct Course {
     pub energy: f64,
     /// The largest distance from the exact position, where it was asked for.
     pub position: f64,
+    /// The largest distance |r + ex − (1 − e²)| from the conic section, of regularised runs.
+    pub off_orbit: f64,
 }
 
 /// A run that takes more steps for one period has left its orbit.

@@ -7,13 +7,6 @@
 use super::kepler::Course;
 use crate::vocabulary::*;
 
-#[derive(Clone, Copy, Default)]
-pub struct Rival {
-    pub course: Course,
-    /// The largest distance |r + ex − (1 − e²)| from the conic section.
-    pub off_orbit: f64,
-}
-
 /// Takes so many steps for each of the periods; each returns the physical time that it takes, the position
 /// and the energy.
 fn by_period(
@@ -22,8 +15,8 @@ fn by_period(
     steps: u32,
     periods: u64,
     mut step: impl FnMut() -> (f64, [f64; 2], f64),
-) -> Result<Rival> {
-    let (mut course, mut off_orbit, mut time, mut rest) = (Course::default(), 0.0, 0.0, 0.0);
+) -> Result<Course> {
+    let (mut course, mut time, mut rest) = (Course::default(), 0.0, 0.0);
     job.repeat(periods, || {
         for _ in 0..steps {
             let (dt, [x, y], energy) = step();
@@ -33,17 +26,17 @@ fn by_period(
             rest = wanted - (time - before);
             course.energy = larger(course.energy, (energy + 0.5).abs());
             course.position = larger(course.position, Orbit { e }.error(time, &[x, y]));
-            off_orbit = larger(off_orbit, (x.hypot(y) + e * x - (1.0 - e * e)).abs());
+            course.off_orbit = larger(course.off_orbit, (x.hypot(y) + e * x - (1.0 - e * e)).abs());
         }
         anyhow::Ok(())
     })?;
     (course.steps, course.evaluations) = (f64::from(steps), f64::from(steps));
-    Ok(Rival { course, off_orbit })
+    Ok(course)
 }
 
 /// Leapfrog on Λ = ln(½p² + B) − ln(1/r), B = −E(0), with `steps` steps per period (Mikkola & Tanikawa 1999;
 /// Preto & Tremaine 1999): drift dq = p ds/(½p² + B), dt = ds/(½p² + B), kick dp = −q ds/r².
-pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Result<Rival> {
+pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Result<Course> {
     let start = orbit.pericentre();
     let (mut q, mut p) = ([start.x, start.y], [start.dot_x, start.dot_y]);
     let (binding, ds) = (0.5, TAU / f64::from(steps));
@@ -63,7 +56,7 @@ pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods:
 ///
 /// Time is the integral of |u|² over the exact oscillation:
 /// ∫|u|² ds = |u|²(h/2 + sin 2ωh/4ω) + |u'/ω|²(h/2 − sin 2ωh/4ω) + u·u' sin²(ωh)/ω², ω = ½.
-pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Result<Rival> {
+pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Result<Course> {
     const OMEGA: f64 = 0.5;
     let Orbit { e } = orbit;
     let h = TAU / f64::from(steps);
