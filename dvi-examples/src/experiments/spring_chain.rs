@@ -32,14 +32,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         errors.map(|[t, error]| (&*series.name, [Some(H), Some(t), Some(error), None, None, None]))
     });
     let named = BETAS.iter().zip(&exchanges).map(|((_, name, _), exchange)| (*name, H, exchange));
-    let of_springs = named.chain([("motion", 0.0, &motion), (BETAS[3].1, LONG, &long)]).flat_map(
-        |(name, h, Exchange(means))| {
-            means.iter().enumerate().map(move |(k, mean)| {
-                let [first, second, third] = mean.map(Some);
-                (name, [Some(h), Some(k as f64 + 0.5), None, first, second, third])
-            })
-        },
-    );
+    let named = named.chain([("motion", 0.0, &motion), (BETAS[3].1, LONG, &long)]);
+    let of_springs = named.flat_map(|(name, h, Exchange(means))| {
+        means.iter().enumerate().map(move |(k, mean)| {
+            let [first, second, third] = mean.map(Some);
+            (name, [Some(h), Some(k as f64 + 0.5), None, first, second, third])
+        })
+    });
     let rows = over_time.chain(of_springs).map(|(name, numbers)| ([name], numbers));
     let table = Table::of("series,h,t,energy_error,first,second,third", rows);
     job.publish(figure(&series, &motion, &exchanges, &long, end), table)?;

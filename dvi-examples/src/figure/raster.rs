@@ -3,6 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use anyhow::{Context as _, Result};
+use dejavu::sans;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
@@ -11,12 +12,7 @@ const SCALE: f32 = 2.0;
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     let mut fonts = fontdb::Database::new();
-    for face in [
-        dejavu::sans::regular(),
-        dejavu::sans::bold(),
-        dejavu::sans::oblique(),
-        dejavu::sans::bold_oblique(),
-    ] {
+    for face in [sans::regular(), sans::bold(), sans::oblique(), sans::bold_oblique()] {
         fonts.load_font_data(face.to_vec());
     }
     Arc::new(fonts)
