@@ -5,6 +5,8 @@
 
 use std::collections::VecDeque;
 
+use crate::numbers::largest;
+
 const WEIGHTS: [f64; 5] = [1.0 / 16.0, -4.0 / 16.0, 6.0 / 16.0, -4.0 / 16.0, 1.0 / 16.0];
 
 /// A fourth-difference filter over five consecutive points of a run.
@@ -14,21 +16,15 @@ pub struct AlternatingComponent {
 }
 
 impl AlternatingComponent {
-    /// Takes the next point, and returns the alternating component at the point two steps before it; `None`
-    /// for the first four points.
-    pub fn push(&mut self, q: &[f64]) -> Option<Vec<f64>> {
+    /// Takes the next point, and returns the largest entry of the alternating component at the point two
+    /// steps before it; `None` for the first four points.
+    pub fn amplitude(&mut self, q: &[f64]) -> Option<f64> {
         if self.points.len() == WEIGHTS.len() {
             self.points.pop_front();
         }
         self.points.push_back(q.to_vec());
         let weighted = || WEIGHTS.iter().zip(&self.points);
         let entry = |k: usize| weighted().fold(0.0, |sum, (weight, q)| sum + weight * q[k]);
-        (self.points.len() == WEIGHTS.len()).then(|| (0..q.len()).map(entry).collect())
-    }
-
-    /// Takes the next point, and returns the largest entry of the alternating component.
-    pub fn amplitude(&mut self, q: &[f64]) -> Option<f64> {
-        let larger = |a: f64, b: f64| if b.abs() > a || b.is_nan() { b.abs() } else { a };
-        self.push(q).map(|component| component.into_iter().fold(0.0, larger))
+        (self.points.len() == WEIGHTS.len()).then(|| largest((0..q.len()).map(|k| entry(k).abs())))
     }
 }

@@ -3,7 +3,6 @@
 
 #![allow(missing_docs, reason = "what models and figures are made of is named as in formulas and figures")]
 
-pub mod alternating;
 #[cfg(feature = "gallery")]
 pub mod figure;
 pub mod models;

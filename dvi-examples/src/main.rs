@@ -5,6 +5,7 @@
 
 #![allow(unreachable_pub, reason = "in a binary `pub` means: for the other modules")]
 
+mod alternating;
 mod claim;
 mod envelope;
 mod experiments;

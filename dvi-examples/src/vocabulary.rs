@@ -11,6 +11,7 @@ pub use dvi_core::prelude::*;
 pub use dvi_core::{ProperlyDegenerate, Separable, Space as _, rotations};
 pub use rayon::prelude::*;
 
+pub use crate::alternating::AlternatingComponent;
 pub use crate::claim::{Bound, Check, Claim, beyond, claims, says};
 pub use crate::envelope::*;
 pub use crate::figure::{
@@ -24,6 +25,5 @@ pub use crate::output::Table;
 pub use crate::rk4::*;
 pub use crate::runs::*;
 pub use crate::series::*;
-pub use dvi_examples::alternating::AlternatingComponent;
 pub use dvi_examples::models::{self, *};
 pub use dvi_examples::osculating::{CentreSpeed, Osculating};
