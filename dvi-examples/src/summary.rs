@@ -14,14 +14,10 @@ use crate::record::Part;
 #[template(path = "summary.md")]
 struct Summary<'a> {
     parts: &'a [Part],
-    title: Title,
 }
 
-/// The sentence on what an experiment shows, by its name.
-pub type Title = fn(&str) -> &'static str;
-
-pub fn markdown(parts: &[Part], title: Title) -> Result<String> {
-    Summary { parts, title }.render().context("the summary cannot be written")
+pub fn markdown(parts: &[Part]) -> Result<String> {
+    Summary { parts }.render().context("the summary cannot be written")
 }
 
 impl Summary<'_> {
@@ -70,15 +66,15 @@ mod tests {
             references: vec![Check::new("|x|", 0.5, Bound::Near(0.5, 1e-3))],
             notes: vec!["A note.".into()],
         });
-        Part { experiment: "sample".into(), length, when: "today".into(), outcome }
+        Part { experiment: "momenta".into(), length, when: "today".into(), outcome }
     }
 
     #[test]
     fn a_summary_tells_verdicts_and_numbers_of_parts_of_both_forms() -> Result<()> {
-        let page = markdown(&[Length::Short, Length::Full].map(part), |_| "A title")?;
+        let page = markdown(&[Length::Short, Length::Full].map(part))?;
         for wanted in [
             "The full form, experiments: 1. ",
-            "## sample: A title\n",
+            "## momenta: Which scheme keeps ",
             "The short form, experiments: 1. Claims of the papers: reproduced 1, fails 1; claims beyond \
              them: holds 1, undecided 1; regression checks: passes 1.",
             "The short form, today.\n",
