@@ -15,8 +15,8 @@ pub use crate::alternating::AlternatingComponent;
 pub use crate::claim::{Bound, Check, Claim, beyond, claims, says};
 pub use crate::envelope::*;
 pub use crate::figure::{
-    AMBER, Anchor, Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, INK, Line, PURPLE, Panel, Points,
-    SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, dashed, scientific, solid, thin,
+    AMBER, Anchor, Axis, BLUE, Colour, Corner, Figure, GREEN, INK, Line, PURPLE, Panel, Points, SEQUENCE,
+    SKY, SLATE, Stroke, VERMILLION, at_most, dashed, scientific, solid, thin,
 };
 pub use crate::gallery::Outcome;
 pub use crate::job::Job;

@@ -164,10 +164,10 @@ impl NoStep {
         Panel::linear("The equation for *h*, trapezoidal rule", ("*h*", [0.0, SHOWN]), defects)
             .line(vec![[0.0, 0.0], [SHOWN, 0.0]], solid(SLATE).width(1.0))
             .lines([("at the last step", dashed(BLUE), last)])
-            .discs(vec![[length, 0.0]], BLUE, Fill::Solid)
+            .discs(vec![[length, 0.0]], BLUE)
             .labelled(format!("its length, {length:.3}"))
             .lines([("where the run ends", solid(VERMILLION), failed)])
-            .discs(vec![[h, 1e3 * defect]], VERMILLION, Fill::Hollow)
+            .rings(vec![[h, 1e3 * defect]], VERMILLION)
             .labelled(format!("nearest to zero, {}", scientific(defect)))
             .legend_at(Corner::TopLeft)
     }

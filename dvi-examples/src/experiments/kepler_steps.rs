@@ -122,7 +122,7 @@ fn figure(all: &[Comparison]) -> Figure {
             .guide([[-0.6, THIRD], [3.6, THIRD]], "one third")
             .each(beside, |panel, ((reference, _, colour), aside)| {
                 let points = of(reference, steps).map(|c| [place(c.e) + aside, c.ratio()]).collect();
-                panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
+                panel.rings(points, colour).labelled(format!("against {reference}"))
             })
     };
     let controlled = compared("Both with (23) as printed", Controlled);

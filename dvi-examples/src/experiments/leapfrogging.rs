@@ -92,7 +92,7 @@ fn figure([ve2, rk2, exact]: [&Motion; 3], end: f64) -> Figure {
         let path = if j < 2 { path.labelled(name()) } else { path };
         let points = &ve2.trajectories[j];
         let start = points.iter().take(1).copied().collect();
-        path.dots(points.clone(), 1.9, colour).discs(start, colour, Fill::Hollow)
+        path.dots(points.clone(), 1.9, colour).rings(start, colour)
     });
     let time = Axis::linear("time *t*   [*L*²/Γ]").within([0.0, end]);
     let axis = Axis::logarithmic("|*z*₁ − *z*₂|   [*L*]");

@@ -114,5 +114,5 @@ fn chain() -> Result<Panel> {
     Ok(Panel::plane(format!("The chain at *t* = {:.0}, about its centre of mass", run.time()), "*x*", "*y*")
         .each(pairs, |panel, [a, b]| panel.line(vec![atoms[a], atoms[b]], dashed(SLATE).width(1.0)))
         .each(atoms.chunks_exact(3), |panel, triangle| panel.line(closed(triangle), solid(BLUE).width(2.4)))
-        .discs(atoms.clone(), BLUE, Fill::Solid))
+        .discs(atoms.clone(), BLUE))
 }

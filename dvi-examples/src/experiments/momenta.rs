@@ -139,7 +139,7 @@ fn figure(all: &[Drifts]) -> Figure {
         let lift = 0.3 - 0.15 * i as f64;
         let rows = all.iter().rev().enumerate();
         let points = rows.filter_map(|(row, (_, of))| Some([of[i]?.max(SMALLEST), row as f64 + lift]));
-        panel.discs(points.collect(), colour, Fill::Solid).labelled(name)
+        panel.discs(points.collect(), colour).labelled(name)
     });
     Figure::of(format!("Four equal vortices, *h* = {H}; below 10⁻¹¹: rounding, or finite differences"))
         .row(500.0, vec![panel.legend_at(Corner::Beside)])

@@ -109,7 +109,7 @@ fn figure(rows: &[Row]) -> Figure {
     let vortices = Panel::new("Four vortices, *t* = 4", h, y).marked(errors(1, |h, error| error / (h * h)));
     let orders = |problem| rows.iter().map(|row| [row.0, row.2[problem]]).collect::<Vec<_>>();
     let over_sigma = Panel::linear("Order over σ", ("σ", [-0.05, 1.05]), ("fitted order", [1.0, 5.0]))
-        .discs(orders(0), SLATE, Fill::Solid)
+        .discs(orders(0), SLATE)
         .labelled("linear")
         .dots(orders(1), 2.2, VERMILLION)
         .labelled("four vortices")

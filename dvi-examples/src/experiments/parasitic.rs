@@ -116,7 +116,7 @@ fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
             let end = points.last().filter(|_| run.failure.is_some()).copied();
             let panel = panel.line(points, solid(colour).width(1.4));
             let panel = panel.labelled(format!("σ = {}, *h* = {}", run.sigma, run.h));
-            panel.discs(end.into_iter().collect(), colour, Fill::Hollow)
+            panel.rings(end.into_iter().collect(), colour)
         })
     };
     let amplitude = "amplitude of the alternating component   [*L*]";

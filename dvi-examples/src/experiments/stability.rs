@@ -29,11 +29,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let damped = damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<Vec<_>>>()?;
     let right = Damped::new(0.5, [0.01, 1.0])?.factor;
     let limits = measured.iter().map(|&[sigma, at]| (["limit"], [sigma, 0.0, at, at, formula(sigma)]));
-    let growths = damped.iter().map(|run| {
-        (
-            ["growth per step"],
-            [run.sigma, run.lambda[0], run.lambda[1], run.factor, root(run.sigma, run.lambda)],
-        )
+    let growths = damped.iter().map(|&Damped { sigma, lambda: [x, y], factor, .. }| {
+        (["growth per step"], [sigma, x, y, factor, root(sigma, [x, y])])
     });
     let columns = "quantity,sigma,lambda_h_real,lambda_h_imaginary,measured,formula";
     job.publish(figure(&measured, &damped), Table::of(columns, limits.chain(growths)))?;
@@ -142,19 +139,16 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let border = Panel::semilog(title, sigma, ("|λ*h*|", [bottom, top]))
         .band(stable, BLUE)
         .lines([("1/|1 − 2σ|", solid(BLUE), curve)])
-        .discs(measured.to_vec(), VERMILLION, Fill::Hollow)
+        .rings(measured.to_vec(), VERMILLION)
         .labelled("measured by bisection")
         .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
         .note([0.1, 20.0], Anchor::Middle, SLATE, "unstable");
     let first = damped.iter().filter(|run| run.lambda == DAMPED[0]);
+    let roots = sigmas().map(|s| [s, root(s, DAMPED[0])]).collect();
     let growth = Panel::linear("λ*h* = −1 + i: growth of |*z*| in a step", sigma, ("factor", [0.8, 3.8]))
         .guide([[0.0, 1.0], [1.0, 1.0]], "neither growth nor decay")
-        .lines([(
-            "larger root of the recursion",
-            solid(BLUE),
-            sigmas().map(|s| [s, root(s, DAMPED[0])]).collect(),
-        )])
-        .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
+        .lines([("larger root of the recursion", solid(BLUE), roots)])
+        .rings(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));
     Figure::of(format!(

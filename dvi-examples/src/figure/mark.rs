@@ -17,12 +17,6 @@ pub(super) enum Mark {
     Dots(Vec<[f64; 2]>, Vec<Stroke>),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fill {
-    Solid,
-    Hollow,
-}
-
 /// The part of the page that shows the data.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {

@@ -25,7 +25,6 @@ use crate::output::write_whole;
 
 pub use axis::{Axis, at_most, scientific};
 pub use decimate::thin;
-pub use mark::Fill;
 pub use palette::*;
 pub use panel::{Corner, Line, Panel, Points, Ranged};
 pub use svg::{Anchor, Stroke, dashed, solid};
@@ -37,7 +36,7 @@ const HEADER: f64 = 72.0;
 const FOOTER: f64 = 30.0;
 
 /// Rows of panels under a title.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Figure {
     title: String,
     subtitle: String,
@@ -49,8 +48,7 @@ pub struct Figure {
 impl Figure {
     /// A figure that gets its title later.
     pub fn of(subtitle: impl Into<String>) -> Self {
-        let [title, footer] = [const { String::new() }; 2];
-        Self { title, subtitle: subtitle.into(), footer, key: None, rows: Vec::new() }
+        Self { subtitle: subtitle.into(), ..Self::default() }
     }
 
     /// Gives it this title if it has none.

@@ -1,7 +1,7 @@
 //! One pair of axes with what is drawn on it.
 
 use super::axis::{Axis, Scale};
-use super::mark::{Fill, Frame, Mark};
+use super::mark::{Frame, Mark};
 use super::palette::{Colour, GRID, PAPER, SLATE};
 use super::svg::{Anchor, Stroke, Svg, dashed, number, solid};
 
@@ -131,12 +131,14 @@ impl Panel {
     }
 
     /// Large dots with a white rim, for few points.
-    pub fn discs(self, points: Points, colour: Colour, fill: Fill) -> Self {
-        let mut strokes = vec![solid(PAPER).width(12.0), solid(colour).width(9.0)];
-        if fill == Fill::Hollow {
-            strokes.push(solid(PAPER).width(5.0));
-        }
-        self.with(Mark::Dots(points, strokes))
+    pub fn discs(self, points: Points, colour: Colour) -> Self {
+        self.with(Mark::Dots(points, vec![solid(PAPER).width(12.0), solid(colour).width(9.0)]))
+    }
+
+    /// The same, hollow.
+    pub fn rings(self, points: Points, colour: Colour) -> Self {
+        let strokes = [solid(PAPER).width(12.0), solid(colour).width(9.0), solid(PAPER).width(5.0)];
+        self.with(Mark::Dots(points, strokes.into()))
     }
 
     /// Gives what was added last a line in the legend.
