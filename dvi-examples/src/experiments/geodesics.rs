@@ -82,22 +82,14 @@ pub fn between_heights(panel: Panel, heights: &Heights) -> Panel {
     panel.each(radii, |panel, radius| panel.line(circle([0.0; 2], radius), dashed(SLATE).width(1.0)))
 }
 
-/// The entries of a state after time `end`, by RK4 with short steps.
-pub fn reference<const D: usize, S: OnManifold<D>>(
-    system: S,
-    start: &S::State<f64>,
-    [end, h]: [f64; 2],
-) -> [f64; D] {
-    rk4_to(system.entries(start), end, h, |y| system.motion(y))
-}
-
 pub fn order_claim<S: OnManifold<12>>(
     body: &str,
     (system, start): (S, S::State<f64>),
     steps: [f64; 3],
     [end, fine]: [f64; 2],
 ) -> Result<Claim> {
-    let [exact, double] = [fine, 2.0 * fine].map(|h| reference(system, &start, [end, h]));
+    let begin = system.entries(&start);
+    let [exact, double] = [fine, 2.0 * fine].map(|h| rk4_to(begin, end, h, |y| system.motion(y)));
     let (motion, simple) = (Problem::new(&system, start), Geodesic::trapezoid());
     let error = |state| apart(&system.entries(&state), &exact);
     let second = order_of(steps, |h| Ok((h, error(motion.up_to(simple, h, end)?))))?;

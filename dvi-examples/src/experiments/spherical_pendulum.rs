@@ -116,7 +116,7 @@ fn order_of_places() -> Result<Claim> {
     let text = "the place of a spherical pendulum is of second order by great circles and by RATTLE, which \
                 differ by a term of the order h², and of fourth by Suzuki's composition";
     let [fine, double] = [FINE, 2.0 * FINE].map(|h| {
-        let [x, y, z, ..] = reference(PENDULUM, &begin(), [ORDER_TIME, h]);
+        let [x, y, z, ..] = rk4_to(PENDULUM.entries(&begin()), ORDER_TIME, h, |y| PENDULUM.motion(y));
         [x, y, z]
     });
     let (arcs, chords, simple) = (arcs(), chords(), Geodesic::trapezoid());
