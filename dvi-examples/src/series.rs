@@ -73,12 +73,11 @@ pub fn magnitudes<'a, const N: usize>(
 pub fn over_time<'a, const N: usize>(
     [title, label]: [&str; 2],
     end: f64,
-    [low, high]: [f64; 2],
+    range: [f64; 2],
     all: impl IntoIterator<Item = &'a Series<N>>,
     quantity: usize,
 ) -> Panel {
-    let axis = Axis::logarithmic(label).within([low, high]);
-    Panel::new(title, Axis::time(end), axis).lines(magnitudes(all, quantity))
+    Panel::semilog(title, ("time *t*", [0.0, end]), (label, range)).lines(magnitudes(all, quantity))
 }
 
 /// A table with the name of each run, time, and the largest magnitudes of as many quantities as there are
