@@ -201,8 +201,9 @@ where
     /// [`ArchiveError::Time`] if it has not come to `t`, or has begun later.
     pub fn run_at(&self, t: f64) -> Result<Integrator<H, M, f64, C>, ArchiveError> {
         let h = self.run.step_size();
-        let is_reached = |time: f64| is_now(t, [time, h]) || if h > 0.0 { time <= t } else { time >= t };
-        let is_past = |time: f64| is_now(t, [time, h]) || if h > 0.0 { time >= t } else { time <= t };
+        let is_at = |time: f64| t.is_finite() && is_now(t, [time, h]);
+        let is_reached = |time: f64| is_at(time) || if h > 0.0 { time <= t } else { time >= t };
+        let is_past = |time: f64| is_at(time) || if h > 0.0 { time >= t } else { time <= t };
         let kept = self.file.kept().iter().take_while(|kept| is_reached(kept.time)).last();
         let Some(kept) = kept.filter(|_| is_past(self.run.time())) else {
             return Err(ArchiveError::Time { t, reached: self.run.time() });
