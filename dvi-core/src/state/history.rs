@@ -5,7 +5,7 @@
 
 use core::ops::Deref;
 
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::passes::lanes_stay_together;
 use crate::{Real, Scalar, Space, System, Vector};
 
@@ -145,9 +145,8 @@ fn combine<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], factors: &[f64; 
     }
 }
 
-impl<S: System, T: Real> Memory<T> for History<S, T> {
-    lasting!(T; vectors ring, count len, count next, numbers seed; is_sound);
-}
+lasting!([S: System, T: Real] History<S, T>, T;
+    vectors ring, count len, count next, numbers seed; is_sound);
 
 #[cfg(test)]
 mod tests {

@@ -2,7 +2,7 @@
 //! steps are of any length.
 
 use super::history::{COEFFICIENTS, DEPTH, Guess};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::{Real, Scalar, Space, System, Vector};
 
 /// The length of a ring: a power of two, which is quick to go around in.
@@ -111,13 +111,10 @@ impl<S: System, T: Real> Kind<S, T> {
     }
 }
 
-impl<S: System, T: Real, const KINDS: usize> Memory<T> for Rates<S, T, KINDS> {
-    lasting!(T; parts kinds, count len, count newest, number last_step; is_sound);
-}
+lasting!([S: System, T: Real, const KINDS: usize] Rates<S, T, KINDS>, T;
+    parts kinds, count len, count newest, number last_step; is_sound);
 
-impl<S: System, T: Real> Memory<T> for Kind<S, T> {
-    lasting!(T; vectors last, numbers seed);
-}
+lasting!([S: System, T: Real] Kind<S, T>, T; vectors last, numbers seed);
 
 /// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the
 /// same sign, and neither is twice as long as the other.

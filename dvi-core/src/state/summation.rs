@@ -7,7 +7,7 @@
 //! order h.
 
 use crate::error::StepFailure;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::norm;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
@@ -107,9 +107,7 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
     }
 }
 
-impl<S: System, T: Real> Memory<T> for Carried<S, T> {
-    lasting!(T; vectors rest);
-}
+lasting!([S: System, T: Real] Carried<S, T>, T; vectors rest);
 
 /// Sets `rest` to what rounding has left out of `sum`, that of x and of (Δ + `rest`).
 #[inline(never)]

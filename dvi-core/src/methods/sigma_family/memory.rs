@@ -8,7 +8,7 @@ use super::parasitic_mode::{Monitor, ParasiticMode};
 use crate::discrete::OneNode;
 use crate::mechanics::combination::{Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::solve::Ladder;
 use crate::space::scratch;
 use crate::state::history::History;
@@ -78,13 +78,9 @@ lasting!([S: System, T: Real] Leaps<S, T>, T; numbers before);
 
 lasting!([S: System, T: Real] SigmaMemory<S, T>, T; part carried, part ladder, part monitor);
 
-impl<S: System, T: Real> Memory<T> for Carried<S, T> {
-    lasting!(
-        T;
-        numbers defect, flag defect_vanishes, numbers one_form, parts leaps, part history,
-        part orientation, part rest,
-    );
-}
+lasting!([S: System, T: Real] Carried<S, T>, T;
+    numbers defect, flag defect_vanishes, numbers one_form, parts leaps, part history,
+    part orientation, part rest);
 
 impl<S: System, T: Real> SigmaMemory<S, T> {
     /// c = p − α(q) at the current point, one entry per coordinate: the parasitic mode in p if σ = ½ and α

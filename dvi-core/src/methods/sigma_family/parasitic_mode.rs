@@ -10,7 +10,7 @@
 mod pace;
 
 use crate::error::StepFailure;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::norm::{larger, reported};
 use crate::{Real, Scalar, Space, System, Vector};
 
@@ -240,13 +240,8 @@ impl<S: System, T: Real> Monitor<S, T> {
     }
 }
 
-impl<S: System, T: Real> Memory<T> for Monitor<S, T> {
-    lasting!(
-        T;
-        vectors points, numbers sizes, size together, count steps, count period, count examined, part mode,
-        count above, count since_jump, part first;
-        is_sound
-    );
-}
+lasting!([S: System, T: Real] Monitor<S, T>, T;
+    vectors points, numbers sizes, size together, count steps, count period, count examined, part mode,
+    count above, count since_jump, part first; is_sound);
 
 lasting!([T: Real] ParasiticMode<T>, T; size amplitude, size relative, flag is_significant);
