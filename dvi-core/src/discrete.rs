@@ -28,7 +28,7 @@ use crate::{Lagrangian, Real, System};
 
 pub use crate::mechanics::{Interval, Span};
 pub use frequency::{Constant, Curvature, Frequency, Radial, Reading, Unfitted};
-pub(crate) use node::{Between, Node, NodeWork, Nodes, RuleNodes, linearize};
+pub(crate) use node::{Between, Node, NodeWork, Nodes, linearize};
 pub use node::{DiscreteLagrangian, OneNode};
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 

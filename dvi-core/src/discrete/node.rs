@@ -222,16 +222,13 @@ impl<T: Real> Nodes<T> for Between<T> {
     }
 }
 
-/// The nodes of a rule, with linear interpolation.
-#[derive(Debug)]
-pub struct RuleNodes<R>(pub(crate) R);
-
-impl<R: Rule, T: Real> Nodes<T> for RuleNodes<R> {
+// With linear interpolation.
+impl<R: Rule, T: Real> Nodes<T> for R {
     fn count(&self) -> usize {
-        self.0.nodes().len()
+        self.nodes().len()
     }
     fn node(&self, j: usize) -> Node<T> {
-        let (c, weight) = (self.0.nodes()[j], self.0.weights()[j]);
+        let (c, weight) = (self.nodes()[j], self.weights()[j]);
         Node::new(T::lift(c), T::lift(weight), Basis::linear(c))
     }
 }

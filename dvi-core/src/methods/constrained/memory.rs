@@ -1,15 +1,14 @@
 //! Where a constrained run is.
 
 use super::reduced::Reduced;
-use crate::discrete::quadrature::Rule;
-use crate::discrete::{DiscreteLagrangian, RuleNodes};
+use crate::discrete::{DiscreteLagrangian, Rule};
 use crate::error::StartError;
 use crate::mechanics::constraints::turning::Gradients;
 use crate::mechanics::constraints::{
     At, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, Tangent,
 };
 use crate::mechanics::orientation::MassOrientation;
-use crate::memory::{Aside, Memory, lasting};
+use crate::memory::{Aside, lasting};
 use crate::methods::Steps;
 use crate::solve::Stopping;
 use crate::{ConstrainedSystem, Real, Space, Vector};
@@ -27,7 +26,7 @@ pub struct ConstrainedMemory<S: ConstrainedSystem, R, T: Real> {
     pub(super) is_positive: bool,
     /// If the mass matrix depends on the state.
     pub(super) orientation: Option<MassOrientation<S, T>>,
-    pub(super) l_d: DiscreteLagrangian<S, RuleNodes<R>, T>,
+    pub(super) l_d: DiscreteLagrangian<S, R, T>,
     pub(super) solver: ConstraintSolver<S, T>,
     pub(super) arrival: Arrival<S, T>,
     /// Where the run is instead of `here`, if its steps are solved for the impulses alone and that is open.
@@ -87,12 +86,8 @@ impl<S: ConstrainedSystem, R, T: Real> ConstrainedMemory<S, R, T> {
 
 lasting!([S: ConstrainedSystem, T: Real] Place<S, T>, T; numbers p, numbers v, vectors impulses);
 
-impl<S: ConstrainedSystem, R, T: Real> Memory<T> for ConstrainedMemory<S, R, T> {
-    lasting!(
-        T; part here, numbers bend, number last_step, part solver, parts gradients, parts orientation,
-        parts reduced
-    );
-}
+lasting!([S: ConstrainedSystem, R, T: Real] ConstrainedMemory<S, R, T>, T;
+    part here, numbers bend, number last_step, part solver, parts gradients, parts orientation, parts reduced);
 
 impl<S: ConstrainedLagrangian<T>, R: Rule, T: Real> ConstrainedMemory<S, R, T> {
     /// At (`q`, `v`, `t`).
@@ -113,7 +108,7 @@ impl<S: ConstrainedLagrangian<T>, R: Rule, T: Real> ConstrainedMemory<S, R, T> {
             gradients: S::Kind::OF_POSITIONS.then(|| Gradients::new(system, At { q, t }, v)),
             is_positive: solver.is_positive(),
             orientation: orientation.transpose().map_err(StartError::Starter)?,
-            l_d: DiscreteLagrangian::of(system, RuleNodes(rule)),
+            l_d: DiscreteLagrangian::of(system, rule),
             solver,
             arrival: Arrival { increment, weights, q: next, place: Place::new(system), work },
             reduced: None,

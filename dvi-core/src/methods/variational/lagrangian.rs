@@ -8,7 +8,7 @@ use super::coefficients::{Coefficients, Placed};
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{Frequency, Local, Unfitted};
 use crate::discrete::quadrature::Rule;
-use crate::discrete::{DiscreteLagrangian, Interval, NodeWork, Nodes, RuleNodes, Span, linearize};
+use crate::discrete::{DiscreteLagrangian, Interval, NodeWork, Nodes, Span, linearize};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::methods::step::{Begin, Equations, Kinetic, Share, set_force};
@@ -216,9 +216,9 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
 }
 
 impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> VariationalMethod<S, T> for Variational<Unfitted, R> {
-    type Nodes = RuleNodes<R>;
+    type Nodes = R;
 
-    fn discrete_lagrangian(&self, system: &S) -> DiscreteLagrangian<S, RuleNodes<R>, T> {
-        DiscreteLagrangian::of(system, RuleNodes(self.rule))
+    fn discrete_lagrangian(&self, system: &S) -> DiscreteLagrangian<S, R, T> {
+        DiscreteLagrangian::of(system, self.rule)
     }
 }
