@@ -46,65 +46,46 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Fixed<B
     };
 }
 
-/// The vector of a [`Fixed`] space.
-#[derive(Clone, Debug)]
-pub struct FixedVector<
-    T: Clone + Debug,
-    const BLOCKS: usize,
-    const N: usize,
-    const SINGLES: usize = 0,
-    R: Room = InPlace,
->(R::Vector<T, BLOCKS, N>);
+/// A vector or a matrix: what is seen of its storage, `$count` entries where the dimension is `$n`.
+macro_rules! stored {
+    ($(#[$doc:meta])* $Name:ident, $Storage:ident, $n:ident => $count:expr) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug)]
+        pub struct $Name<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>(
+            R::$Storage<T, BLOCKS, N>,
+        );
 
-/// The matrix of a [`Fixed`] space.
-#[derive(Clone, Debug)]
-pub struct FixedMatrix<
-    T: Clone + Debug,
-    const BLOCKS: usize,
-    const N: usize,
-    const SINGLES: usize = 0,
-    R: Room = InPlace,
->(R::Matrix<T, BLOCKS, N>);
+        impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Deref
+            for $Name<T, BLOCKS, N, SINGLES, R>
+        {
+            type Target = [T];
+            #[inline]
+            fn deref(&self) -> &[T] {
+                let $n = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
+                self.0.entries($count)
+            }
+        }
 
-impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Deref
-    for FixedVector<T, BLOCKS, N, SINGLES, R>
-{
-    type Target = [T];
-    #[inline]
-    fn deref(&self) -> &[T] {
-        self.0.entries(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
-    }
+        impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
+            for $Name<T, BLOCKS, N, SINGLES, R>
+        {
+            #[inline]
+            fn deref_mut(&mut self) -> &mut [T] {
+                let $n = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
+                self.0.entries_mut($count)
+            }
+        }
+    };
 }
 
-impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
-    for FixedVector<T, BLOCKS, N, SINGLES, R>
-{
-    #[inline]
-    fn deref_mut(&mut self) -> &mut [T] {
-        self.0.entries_mut(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
-    }
-}
-
-impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Deref
-    for FixedMatrix<T, BLOCKS, N, SINGLES, R>
-{
-    type Target = [T];
-    #[inline]
-    fn deref(&self) -> &[T] {
-        let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
-        self.0.entries(dimension * dimension)
-    }
-}
-
-impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
-    for FixedMatrix<T, BLOCKS, N, SINGLES, R>
-{
-    #[inline]
-    fn deref_mut(&mut self) -> &mut [T] {
-        let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
-        self.0.entries_mut(dimension * dimension)
-    }
-}
+stored!(
+    /// The vector of a [`Fixed`] space.
+    FixedVector, Vector, n => n
+);
+stored!(
+    /// The matrix of a [`Fixed`] space.
+    FixedMatrix, Matrix, n => n * n
+);
 
 impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Sink<T>
     for FixedMatrix<T, BLOCKS, N, SINGLES, R>
