@@ -6,46 +6,39 @@ use core::fmt::Debug;
 /// [`Holonomic`], [`Nonholonomic`] or [`Unilateral`].
 pub trait Kind: Debug {
     /// Whether the mass matrix is regular.
-    const REGULAR: bool = true;
+    const REGULAR: bool;
 }
 
-/// The kind of L = α(q, t)·v − H(q, t): the equations of motion are of first order on Q.
-#[derive(Clone, Copy, Debug)]
-pub enum Degenerate {}
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $Kind:ident, $is_regular:literal;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub enum $Kind {}
 
-/// The kind of L(q, v, t) with a regular mass matrix: the equations of motion are of second order, or of
-/// first order on T*Q.
-#[derive(Clone, Copy, Debug)]
-pub enum Regular {}
-
-/// The kind of L(q, v, t) with a regular mass matrix on a manifold: some coordinates are rotation matrices
-/// or unit vectors.
-#[derive(Clone, Copy, Debug)]
-pub enum Manifold {}
-
-/// The kind of L(q, v, t) with a regular mass matrix and holonomic constraints g(q, t) = 0.
-#[derive(Clone, Copy, Debug)]
-pub enum Holonomic {}
-
-/// The kind of L(q, v, t) with a regular mass matrix and constraints of the velocities,
-/// A(q, t) v + b(q, t) = 0.
-#[derive(Clone, Copy, Debug)]
-pub enum Nonholonomic {}
-
-/// The kind of L(q, v, t) with a regular mass matrix whose motion stays where g(q, t) ≥ 0: between impacts
-/// that of [`Regular`].
-#[derive(Clone, Copy, Debug)]
-pub enum Unilateral {}
-
-impl Kind for Degenerate {
-    const REGULAR: bool = false;
+        impl Kind for $Kind {
+            const REGULAR: bool = $is_regular;
+        }
+    )*};
 }
 
-impl Kind for Regular {}
-impl Kind for Manifold {}
-impl Kind for Holonomic {}
-impl Kind for Nonholonomic {}
-impl Kind for Unilateral {}
+kinds! {
+    /// The kind of L = α(q, t)·v − H(q, t): the equations of motion are of first order on Q.
+    Degenerate, false;
+    /// The kind of L(q, v, t) with a regular mass matrix: the equations of motion are of second order, or of
+    /// first order on T*Q.
+    Regular, true;
+    /// The kind of L(q, v, t) with a regular mass matrix on a manifold: some coordinates are rotation matrices
+    /// or unit vectors.
+    Manifold, true;
+    /// The kind of L(q, v, t) with a regular mass matrix and holonomic constraints g(q, t) = 0.
+    Holonomic, true;
+    /// The kind of L(q, v, t) with a regular mass matrix and constraints of the velocities,
+    /// A(q, t) v + b(q, t) = 0.
+    Nonholonomic, true;
+    /// The kind of L(q, v, t) with a regular mass matrix whose motion stays where g(q, t) ≥ 0: between impacts
+    /// that of [`Regular`].
+    Unilateral, true;
+}
 
 /// The kinds of systems whose motion is a smooth curve of numbers, between two of which one may interpolate:
 /// all but [`Unilateral`] and [`Manifold`].
