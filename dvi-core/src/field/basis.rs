@@ -91,10 +91,6 @@ impl<const P: usize> Basis<P> {
         }
     }
 
-    pub(super) fn is_periodic(&self) -> bool {
-        self.period.is_some()
-    }
-
     fn ends(&self) -> (f64, f64) {
         (self.knots[P], self.knots[P + self.cells()])
     }
@@ -102,11 +98,9 @@ impl<const P: usize> Basis<P> {
     /// The number itself, or what it is in the first period; not a number outside of the domain.
     fn position(&self, x: f64) -> f64 {
         let (first, last) = self.ends();
-        if first <= x && x <= last { x } else { self.wrapped(x) }
-    }
-
-    fn wrapped(&self, x: f64) -> f64 {
-        let (first, _) = self.ends();
+        if first <= x && x <= last {
+            return x;
+        }
         let Some(period) = self.period else { return f64::NAN };
         // A remainder has no rounding error, however large the quotient is.
         let beyond = (x - first) % period;
@@ -146,12 +140,6 @@ impl<const P: usize> Basis<P> {
             local.functions[i] = horner::<P, T>(|power| coefficient(i, power), s);
         }
         local
-    }
-
-    /// The B-splines at one of the points of the grid, from the first that is not zero on.
-    pub(super) fn at_point(&self, x: f64) -> (usize, [f64; ORDER]) {
-        let local = self.at(x);
-        (local.cell as usize, local.functions.map(|[value, ..]| value))
     }
 }
 

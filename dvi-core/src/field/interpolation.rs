@@ -15,7 +15,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::Axis;
-use super::basis::Basis;
+use super::basis::{Basis, Local};
 
 /// The equations of one axis, with their triangular factors in place.
 #[derive(Debug)]
@@ -34,15 +34,17 @@ impl Equations {
     pub(super) fn new<const P: usize>(axis: &Axis, basis: &Basis<P>) -> Self {
         let points = axis.points();
         let count = points.len();
-        let border = if basis.is_periodic() { (P - 1) / 2 } else { 0 };
+        let border = if axis.period().is_some() { (P - 1) / 2 } else { 0 };
         let (inner, reach) = (count - border, if border == 0 { P } else { border });
         let mut equations = Self { inner, border, reach, entries: Vec::new() };
         equations.entries = vec![0.0; equations.place(count, 0)];
         for (row, &x) in points.iter().enumerate() {
-            let (first, values) = basis.at_point(x);
-            for (i, &value) in values.iter().enumerate().take(P + 1).filter(|(_, value)| **value != 0.0) {
+            // From the first that is not zero on.
+            let Local { cell, functions, .. } = basis.at(x);
+            let values = functions.iter().map(|&[value, ..]| value).enumerate().take(P + 1);
+            for (i, value) in values.filter(|&(_, value)| value != 0.0) {
                 // With a period, the function around the point is in the diagonal.
-                let place = equations.place(row, (first + i + count - border) % count);
+                let place = equations.place(row, (cell as usize + i + count - border) % count);
                 equations.entries[place] += value;
             }
         }
