@@ -211,8 +211,9 @@ impl<'s, S: PairSum<f64, D>, const D: usize> FastSum<'s, S, D> {
         if !(least..=LARGEST).contains(&tolerance) {
             return Err(FastSumError::Tolerance { tolerance, least });
         }
-        let (order, least) = calibrated::<D>(tolerance);
-        let inner = RefCell::new((Expansion::new(order, least), Work::new(tolerance)));
+        // One more divides the error by 3 to 4 where bodies lie on a line, by more elsewhere.
+        let order = (-1.75 * tolerance.log10()).ceil() as usize + if D > 2 { 3 } else { 2 };
+        let inner = RefCell::new((Expansion::new(order, 0.03 * tolerance), Work::new(tolerance)));
         Ok(Self { system, tolerance, inner })
     }
 }
@@ -303,11 +304,4 @@ where
         }
         found.is_ok()
     }
-}
-
-/// The order of the interpolation, and the least singular value of its matrices, as part of the largest. An
-/// order more divides the error by 3 to 4 where bodies lie on a line, by more elsewhere.
-fn calibrated<const D: usize>(tolerance: f64) -> (usize, f64) {
-    let order = (-1.75 * tolerance.log10()).ceil() as usize + 2;
-    (if D > 2 { order + 1 } else { order }, 0.03 * tolerance)
 }
