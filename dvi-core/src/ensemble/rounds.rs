@@ -70,7 +70,7 @@ impl Rounds {
         // A path that cannot be written to shows before the work is done.
         self.write(checkpoints)?;
         let mut written = Instant::now();
-        while !self.have_ended() {
+        while !self.slots.iter().all(Slot::has_ended) {
             self.tell(&mut on_progress);
             let rest = checkpoints.map(|checkpoints| checkpoints.every.saturating_sub(written.elapsed()));
             let length = on_progress.as_ref().map(|_| PROGRESS).into_iter().chain(rest).min();
@@ -101,10 +101,6 @@ impl Rounds {
             }
             advance(group, &is_over)
         })
-    }
-
-    fn have_ended(&self) -> bool {
-        self.slots.iter().all(Slot::has_ended)
     }
 
     fn write(&self, checkpoints: Option<&Checkpoints>) -> Result<(), EnsembleError> {
