@@ -7,7 +7,6 @@
 //! over several turns: there the stages divide a step into parts, each of which is searched so. So do jumps
 //! of the velocity, of which a method knows the place and both sides. Each crossing is found to rounding.
 
-mod conditions;
 mod course;
 mod found;
 mod search;
@@ -20,11 +19,37 @@ use super::dense::{Dense, StateOf};
 #[cfg(doc)]
 use crate::error::StepFailure;
 use crate::error::{StartError, StepError};
-use crate::run::Run;
+use crate::run::{Run, between::Flat};
 use crate::shown::shown;
-pub(super) use conditions::{Conditions, Declared};
+use crate::{Lagrangian, Real, System};
 pub use search::Direction;
 use watch::Watch;
+
+/// Conditions of which an event is a zero: a closure over the time and the state, or those that are
+/// [declared](crate::run::Run::declared_events) in the attribute of the system.
+pub trait Conditions<S: System, T: Real, const N: usize> {
+    /// Their values at time `t`. What `state` is before does not matter.
+    fn values(&mut self, t: T, at: Flat<'_, S, T>, state: &mut S::State<T>) -> [T; N];
+}
+
+impl<S: System, T: Real, const N: usize, G: FnMut(T, &S::State<T>) -> [T; N]> Conditions<S, T, N> for G {
+    #[inline]
+    fn values(&mut self, t: T, at: Flat<'_, S, T>, state: &mut S::State<T>) -> [T; N] {
+        at.refill(state);
+        self(t, state)
+    }
+}
+
+/// The events that a system declares, all in their order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Declared;
+
+impl<S: Lagrangian<T>, T: Real, const N: usize> Conditions<S, T, N> for Declared {
+    #[inline]
+    fn values(&mut self, t: T, at: Flat<'_, S, T>, _: &mut S::State<T>) -> [T; N] {
+        core::array::from_fn(|index| at.system.event(index, at.q, at.v, t))
+    }
+}
 
 /// Where a run meets a condition.
 ///

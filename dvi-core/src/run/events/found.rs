@@ -1,7 +1,6 @@
 //! Events of a step that have been found, and how they are handed out.
 
-use super::conditions::Conditions;
-use super::{Event, EventOf, Watch};
+use super::{Conditions, Event, EventOf, Watch};
 use crate::error::{StepError, StepFailure};
 use crate::methods::JUMPS;
 use crate::run::Run;

@@ -1,6 +1,6 @@
 //! The search for events in a step: by the signs of a condition at its ends, and by its slopes there.
 
-use super::conditions::Conditions;
+use super::Conditions;
 use crate::error::StepFailure;
 use crate::run::Run;
 use crate::run::dense::{Dense, StateOf, are_one};

@@ -1,10 +1,9 @@
 //! Conditions that are watched on a run: where they are zero in its last step.
 
-use super::Direction;
-use super::conditions::Conditions;
 use super::course::{Course, Watched};
 use super::found::Found;
 use super::search::{Within, above_rounding, numbers};
+use super::{Conditions, Direction};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::methods::JUMPS;
 use crate::run::Run;
