@@ -7,7 +7,6 @@ mod borrowed;
 mod checkpoint;
 mod clock;
 mod dense;
-mod discrete_momentum;
 mod events;
 mod integrator;
 mod kept;
