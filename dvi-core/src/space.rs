@@ -15,7 +15,6 @@ mod rows;
 mod run_time;
 mod sink;
 pub(crate) mod square;
-mod weights;
 
 /// An array of coordinates whose length is known at run time only.
 #[cfg(feature = "alloc")]
@@ -34,7 +33,6 @@ pub(crate) use rows::RowMatrix;
 pub use run_time::RunTime;
 pub use sink::Sink;
 pub(crate) use square::SquareMatrix;
-pub use weights::Weights;
 
 /// The shape of a configuration space and the storage for it.
 pub trait Space: Copy + Debug + PartialEq {
@@ -125,6 +123,33 @@ macro_rules! scratch {
     };
 }
 pub(crate) use scratch;
+
+/// The weights of the four blocks of the second derivative of L(q, v, t).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights<T> {
+    /// Weight of ∂²L/∂qⁱ∂qʲ.
+    pub qq: T,
+    /// Weight of ∂²L/∂qⁱ∂vʲ.
+    pub qv: T,
+    /// Weight of ∂²L/∂vⁱ∂qʲ.
+    pub vq: T,
+    /// Weight of ∂²L/∂vⁱ∂vʲ.
+    pub vv: T,
+}
+
+impl<T: Real> Weights<T> {
+    /// Those that leave nothing.
+    #[inline]
+    pub(crate) fn none() -> Self {
+        let zero = T::lift(0.0);
+        Self { qq: zero, qv: zero, vq: zero, vv: zero }
+    }
+
+    /// Those that leave the mass matrix, ∂²L/∂v∂v.
+    pub(crate) fn mass() -> Self {
+        Self { vv: T::lift(1.0), ..Self::none() }
+    }
+}
 
 /// Numbers in (−1, 1) from a linear congruential generator.
 #[cfg(test)]
