@@ -14,6 +14,8 @@ use alloc::vec::Vec;
 use crate::discrete::{DiscreteLagrangian, Interval, Nodes, Span};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
+#[cfg(feature = "alloc")]
+use crate::scalar::passes::dot;
 use crate::scalar::passes::negate;
 use crate::space::elimination::{self, multiply_add};
 #[cfg(feature = "alloc")]
@@ -129,7 +131,6 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> TangentMap<S, N, T> {
     #[cfg(feature = "alloc")]
     pub fn symplectic_defect(&mut self, system: &S) -> T {
         let images = images(system, |dq, dp| self.apply(dq, dp));
-        let dot = |x: &[T], y: &[T]| x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y);
         let form = |[u, w]: [&[Vector<S, T>; 2]; 2]| dot(&u[0], &w[1]) - dot(&u[1], &w[0]);
         defect(&images, form, form)
     }

@@ -10,6 +10,7 @@ use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
 use crate::scalar::norm;
+use crate::scalar::passes::dot;
 use crate::{NondegenerateLagrangian, Real, Scalar, Space};
 
 pub(crate) use local::Local;
@@ -293,10 +294,6 @@ impl Frequency for Radial {
         }
         Some(omega)
     }
-}
-
-fn dot<T: Real>(x: &[T], y: &[T]) -> T {
-    x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y)
 }
 
 /// Whether a frequency, or its product with the step, is a finite number.

@@ -73,3 +73,8 @@ pub(crate) fn negate<T: Real>(x: &mut [T]) {
         *x = -*x;
     }
 }
+
+/// x·y.
+pub(crate) fn dot<T: Real>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y)
+}

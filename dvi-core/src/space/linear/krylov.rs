@@ -11,6 +11,7 @@ use alloc::vec::Vec;
 use super::{LinearEquations, LinearSolver, scale, set_scales};
 use crate::error::StepFailure;
 use crate::scalar::norm::{self, reported};
+use crate::scalar::passes::dot;
 use crate::{Real, Scalar};
 
 /// The dimension of the spaces that residuals are minimised in.
@@ -251,10 +252,6 @@ impl<T: Real> Krylov<T> {
         scale(product, scales);
         Ok(())
     }
-}
-
-fn dot<T: Real>(x: &[T], y: &[T]) -> T {
-    x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y)
 }
 
 fn length<T: Real>(x: &[T]) -> T {
