@@ -250,7 +250,6 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         S: PartialEq,
         M: InStep<W, S, Packs: 'a> + PartialEq + 'a,
     {
-        const { assert!(W > 0, "a pack has at least one lane") };
         self.settings.packs = Some((W, |run| {
             let mut together = Together::<W, S, M>::new(run);
             Box::new(move |runs, count| together.take_steps(runs, count))

@@ -44,10 +44,6 @@ struct Runner<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
 }
 
 impl Slot {
-    pub(super) fn waiting(number: u64) -> Self {
-        Self { number, place: Place::Waiting }
-    }
-
     pub(super) fn has_ended(&self) -> bool {
         matches!(self.place, Place::Ended(_))
     }

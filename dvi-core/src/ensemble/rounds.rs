@@ -11,7 +11,7 @@ use rayon::slice::ParallelSliceMut;
 
 use super::error::EnsembleError;
 use super::file;
-use super::group::Slot;
+use super::group::{Place, Slot};
 use super::plan::Plan;
 use super::{Progress, Results, Shard, Tell};
 
@@ -44,8 +44,8 @@ impl Rounds {
     ) -> Result<Self, EnsembleError> {
         let saved = checkpoints.map(|Checkpoints { path, .. }| Ok((path, file::read(path)?))).transpose()?;
         let Some((path, Some((saved_plan, saved_shard, slots)))) = saved else {
-            let slots =
-                (0..plan.members).filter(|&member| shard.contains(member)).map(Slot::waiting).collect();
+            let waiting = |number| Slot { number, place: Place::Waiting };
+            let slots = (0..plan.members).filter(|&number| shard.contains(number)).map(waiting).collect();
             return Ok(Self { plan, shard, slots });
         };
         let of_shard = super::error::Difference {
