@@ -282,6 +282,11 @@ impl StartError {
     ) -> Result<(), Self> {
         if in_range { Ok(()) } else { Err(Self::Parameter { name, value, range }) }
     }
+
+    /// [`Unsupported`](Self::Unsupported), unless an option `goes` with the system and with others.
+    pub(crate) fn unless_it(goes: bool, option: &'static str, reason: &'static str) -> Result<(), Self> {
+        if goes { Ok(()) } else { Err(Self::Unsupported { option, reason }) }
+    }
 }
 
 /// A checkpoint that does not fit the run that is to go on from it.

@@ -112,13 +112,11 @@ pub(crate) fn check<S: ManifoldSystem, T: Real>(system: &S, [q, v]: [&[T]; 2]) -
             Factor::Rotation => rotation::defect(&matrix(q, block)),
             Factor::Sphere => {
                 let (s, rate) = (vector(q, block), vector(v, block));
-                if carries_derivatives::<T>() && rate == Vector3::zeros() {
-                    return Err(StartError::Unsupported {
-                        option: "a unit vector that rests at the start, in numbers with derivatives",
-                        reason: "its great circle has no direction to be differentiated there; begin with a \
-                                 small velocity",
-                    });
-                }
+                let option = "a unit vector that rests at the start, in numbers with derivatives";
+                let reason = "its great circle has no direction to be differentiated there; begin with a \
+                              small velocity";
+                let goes = !carries_derivatives::<T>() || rate != Vector3::zeros();
+                StartError::unless_it(goes, option, reason)?;
                 // 0 of a velocity that is zero.
                 let along = Scalar::abs(s.dot(&rate)).over_root(rate.norm());
                 norm::larger(Scalar::abs(s.dot(&s) - T::lift(1.0)), along)

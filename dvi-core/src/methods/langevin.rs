@@ -93,11 +93,8 @@ impl Langevin {
             let in_range = value >= 0.0 && value.is_finite();
             StartError::unless(in_range, name, value, "not negative, and finite")?;
         }
-        if h < T::lift(0.0) {
-            let reason = "friction and noise have a direction in time";
-            return Err(StartError::Unsupported { option: "a negative step", reason });
-        }
-        Ok(())
+        let is_negative = h < T::lift(0.0);
+        StartError::unless_it(!is_negative, "a negative step", "friction and noise have a direction in time")
     }
 
     /// Friction and noise over a time `h`, with normal numbers from `generator`.

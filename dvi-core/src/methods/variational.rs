@@ -160,15 +160,12 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError> {
         Quadrature::new(self.rule.nodes(), self.rule.weights())?;
         frequency::admit(&self.frequency, system)?;
-        let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-        if self.solver == Solver::FixedPoint && !S::CONSTANT_MASS {
-            let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton";
-            return unsupported("Solver::FixedPoint", reason);
-        }
-        if self.fitting != Fitting::Phase && self.frequency.reading() == Some(Reading::Variational) {
-            let reason = "its weights are not differentiated with the frequency; take Fitting::Phase";
-            return unsupported("Fitting::PhaseAndMomentum", reason);
-        }
+        let goes = self.solver != Solver::FixedPoint || S::CONSTANT_MASS;
+        let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton";
+        StartError::unless_it(goes, "Solver::FixedPoint", reason)?;
+        let goes = self.fitting == Fitting::Phase || self.frequency.reading() != Some(Reading::Variational);
+        let reason = "its weights are not differentiated with the frequency; take Fitting::Phase";
+        StartError::unless_it(goes, "Fitting::PhaseAndMomentum", reason)?;
         self.stopping.validate()
     }
 }

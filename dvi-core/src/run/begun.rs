@@ -47,10 +47,8 @@ pub(super) fn carried<S: Lagrangian<T>, C: StepControl<S, T>, K, T: Real>(
     control: impl FnOnce(&[T], &[T]) -> Result<(C::Memory, T), StartError>,
     method: impl Fn(&Vector<S, T>, &[T], T) -> Result<K, StartError>,
 ) -> Result<BegunOf<S, K, C, T>, StartError> {
-    if S::TIME_TRANSFORMED && !C::ONE_LENGTH {
-        let reason = "the time of the system is transformed, which sets the lengths of its steps";
-        return Err(StartError::Unsupported { option: "a step control", reason });
-    }
+    let reason = "the time of the system is transformed, which sets the lengths of its steps";
+    StartError::unless_it(!S::TIME_TRANSFORMED || C::ONE_LENGTH, "a step control", reason)?;
     let v = &all[..velocities(system)];
     let explained = |error| named(system, [&q, &all], t, error);
     let (control_memory, h) = control(&q, v).map_err(explained)?;

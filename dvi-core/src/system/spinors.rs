@@ -126,10 +126,7 @@ pub(crate) fn check<S: System, T: Real>(system: &S, q: &[T]) -> Result<(), Start
 /// # Errors
 /// [`StartError::Unsupported`] if there are unit vectors.
 pub(crate) fn refuse<S: System>(option: &'static str) -> Result<(), StartError> {
-    if !has::<S>() {
-        return Ok(());
-    }
     let reason = "it would not keep the lengths of unit vectors; `Gauss`, and with affine α `Sigma::midpoint()` from \
                   `Start::Consistent`, keep them";
-    Err(StartError::Unsupported { option, reason })
+    StartError::unless_it(!has::<S>(), option, reason)
 }

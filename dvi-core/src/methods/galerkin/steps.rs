@@ -48,27 +48,23 @@ where
     }
 
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         frequency::admit(&self.frequency, system)?;
-        if let Some(Reading::LeftFrozen | Reading::Variational) = self.frequency.reading() {
-            return unsupported("this reading of the frequency", "take Reading::Averaged");
-        }
-        if !S::SEPARABLE && self.solver == Solver::FixedPoint {
-            let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities; take \
-                          Solver::Newton";
-            return unsupported("Solver::FixedPoint", reason);
-        }
+        let goes = matches!(self.frequency.reading(), None | Some(Reading::Averaged));
+        StartError::unless_it(goes, "this reading of the frequency", "take Reading::Averaged")?;
+        let goes = S::SEPARABLE || self.solver != Solver::FixedPoint;
+        let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities; take \
+                      Solver::Newton";
+        StartError::unless_it(goes, "Solver::FixedPoint", reason)?;
         self.stopping.validate()?;
         let solver = match self.solver.in_numbers::<T>() {
             // Any L has no fixed point.
             Solver::Automatic if !S::SEPARABLE => Solver::Newton,
             solver => solver,
         };
-        if solver != Solver::FixedPoint && size_of::<Coupled<NODES, S, T>>() > MOST_BYTES {
-            let reason = "its matrix for so many nodes and coordinates takes more than a megabyte of the \
-                          stack; take Solver::FixedPoint, fewer nodes, or a heap: the feature `alloc`";
-            return Err(StartError::Unsupported { option: "Newton's method", reason });
-        }
+        let goes = solver == Solver::FixedPoint || size_of::<Coupled<NODES, S, T>>() <= MOST_BYTES;
+        let reason = "its matrix for so many nodes and coordinates takes more than a megabyte of the \
+                      stack; take Solver::FixedPoint, fewer nodes, or a heap: the feature `alloc`";
+        StartError::unless_it(goes, "Newton's method", reason)?;
         let (space, eliminates) = (system.space(), S::SEPARABLE && F::UNFITTED);
         let histories = || Displacements { nodes: core::array::from_fn(|_| History::new(system, None)) };
         let reading = self.frequency.reading();

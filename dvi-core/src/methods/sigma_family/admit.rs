@@ -21,10 +21,9 @@ impl<T: Real> Sigma<T> {
     ) -> Result<(), StartError> {
         let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
         StartError::unless(in_range, "sigma", norm::reported(self.sigma), "0 <= sigma <= 1")?;
-        if self.summation == Summation::Compensated && (!S::AFFINE || self.is_end()) {
-            let reason = "it is for affine one-forms and 0 < sigma < 1";
-            return Err(StartError::Unsupported { option: "Summation::Compensated", reason });
-        }
+        let goes = self.summation == Summation::Plain || (S::AFFINE && !self.is_end());
+        let reason = "it is for affine one-forms and 0 < sigma < 1";
+        StartError::unless_it(goes, "Summation::Compensated", reason)?;
         if let Some(limit) = self.parasitic_limit {
             StartError::unless(limit > 0.0, "parasitic_limit", limit, "positive")?;
         }

@@ -139,10 +139,8 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
         if !is_length(self.first_step) {
             return Err(StartError::Step { h: self.first_step });
         }
-        if S::FORCED || !S::AUTONOMOUS {
-            let reason = "energy is not conserved: forces act on the system, or L depends on the time";
-            return Err(StartError::Unsupported { option: "EnergyMomentum", reason });
-        }
+        let reason = "energy is not conserved: forces act on the system, or L depends on the time";
+        StartError::unless_it(!S::FORCED && S::AUTONOMOUS, "EnergyMomentum", reason)?;
         let [mut force, mut momentum, start, delta, velocity]: [Vector<S, T>; 5] = system.space().vectors();
         system.gradient(q, v, t, &mut force, &mut momentum);
         let energy = Scalar::abs(system.energy(q, v, t));
@@ -168,11 +166,8 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
     }
 
     fn admit<M: Method<S, T>>(&self) -> Result<(), StartError> {
-        if M::DISCRETE_ENERGY.is_some() {
-            return Ok(());
-        }
         let reason = "the method has no discrete energy: take `Variational` without a frequency";
-        Err(StartError::Unsupported { option: "EnergyMomentum", reason })
+        StartError::unless_it(M::DISCRETE_ENERGY.is_some(), "EnergyMomentum", reason)
     }
 
     fn step<M: Method<S, T>>(

@@ -234,12 +234,9 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
     }
 
     fn admit<M: Method<S, T>>(&self) -> Result<(), StartError> {
-        if M::ESTIMATES_LOCAL_ERROR {
-            return Ok(());
-        }
         let reason = "the method has no estimate of the error of a step: take `Gauss`; no method for \
                       constraints, impacts or rotations has one";
-        Err(StartError::Unsupported { option: "ErrorControl", reason })
+        StartError::unless_it(M::ESTIMATES_LOCAL_ERROR, "ErrorControl", reason)
     }
 
     fn step<M: Method<S, T>>(
