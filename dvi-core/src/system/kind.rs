@@ -27,16 +27,16 @@ kinds! {
     /// The kind of L(q, v, t) with a regular mass matrix: the equations of motion are of second order, or of
     /// first order on T*Q.
     Regular, true;
-    /// The kind of L(q, v, t) with a regular mass matrix on a manifold: some coordinates are rotation matrices
-    /// or unit vectors.
+    /// The kind of L(q, v, t) with a regular mass matrix on a manifold: some coordinates are rotation
+    /// matrices or unit vectors.
     Manifold, true;
     /// The kind of L(q, v, t) with a regular mass matrix and holonomic constraints g(q, t) = 0.
     Holonomic, true;
     /// The kind of L(q, v, t) with a regular mass matrix and constraints of the velocities,
     /// A(q, t) v + b(q, t) = 0.
     Nonholonomic, true;
-    /// The kind of L(q, v, t) with a regular mass matrix whose motion stays where g(q, t) ≥ 0: between impacts
-    /// that of [`Regular`].
+    /// The kind of L(q, v, t) with a regular mass matrix whose motion stays where g(q, t) ≥ 0: between
+    /// impacts that of [`Regular`].
     Unilateral, true;
 }
 

@@ -133,8 +133,8 @@ impl Lowering<'_> {
         if self.model.blocks[first].is_spinor() {
             let message = match role {
                 Role::Force => format!(
-                    "no force acts on the unit vector `{name}`: forces are on numbers, such as its height z and \
-                     its longitude phi, with `-kappa * z * d(phi)` for the area"
+                    "no force acts on the unit vector `{name}`: forces are on numbers, such as its height \
+                     z and its longitude phi, with `-kappa * z * d(phi)` for the area"
                 ),
                 _ => format!(
                     "the one-form along a unit vector is an area: write the one-form as a sum of terms, with `{AREA}({})` in it",

@@ -102,8 +102,8 @@ fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
         Syntax::Binary(binary) => match binary.op {
             BinOp::Rem(_) => (
                 "`%` outside of an index",
-                "; in an index it is written `x[(j + 1) % n]`, and the remainder of a number is a function of your \
-                 own, declared by `functions(f = [f, df, d2f])`",
+                "; in an index it is written `x[(j + 1) % n]`, and the remainder of a number is a function \
+                 of your own, declared by `functions(f = [f, df, d2f])`",
             ),
             BinOp::Eq(_) | BinOp::Ne(_) | BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) => {
                 ("a comparison outside of a condition", "; write `if a < b { … } else { … }`")

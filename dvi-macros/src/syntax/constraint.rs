@@ -177,8 +177,8 @@ impl Attribute {
                 }
                 (Constrained::Positions | Constrained::Velocities, _) => (
                     "a system has constraints of one kind",
-                    "choose the coordinates so that the constraints of the positions hold, or declare their rates \
-                     of change by `nonholonomic = …` too",
+                    "choose the coordinates so that the constraints of the positions hold, or declare \
+                     their rates of change by `nonholonomic = …` too",
                 ),
             };
             let message = format!(

@@ -40,7 +40,9 @@ impl Attribute {
             self.constrained.map(|of| of.words().word).or(acting).map(|word| {
                 let (what, size, constraints, angles) = match first.factor {
                     Factor::Rotation => ("a rotation", 9, "six constraints", "three"),
-                    Factor::Sphere | Factor::Line => ("a unit vector", 3, "its length as a constraint", "two"),
+                    Factor::Sphere | Factor::Line => {
+                        ("a unit vector", 3, "its length as a constraint", "two")
+                    }
                 };
                 let numbers = match self.constrained {
                     Some(Constrained::Gaps) => format!("{angles} angles"),
@@ -51,7 +53,8 @@ impl Attribute {
                     Some(Constrained::Positions) | None => format!("`{first}[{size}]`, with {constraints}"),
                 };
                 format!(
-                    "a system with rotations or unit vectors has no `{word}` yet: {what} as numbers is {numbers}"
+                    "a system with rotations or unit vectors has no `{word}` yet: {what} as numbers is \
+                     {numbers}"
                 )
             })
         };

@@ -87,7 +87,8 @@ impl<S: ConstrainedSystem, R, T: Real> ConstrainedMemory<S, R, T> {
 lasting!([S: ConstrainedSystem, T: Real] Place<S, T>, T; numbers p, numbers v, vectors impulses);
 
 lasting!([S: ConstrainedSystem, R, T: Real] ConstrainedMemory<S, R, T>, T;
-    part here, numbers bend, number last_step, part solver, parts gradients, parts orientation, parts reduced);
+    part here, numbers bend, number last_step, part solver, parts gradients, parts orientation,
+    parts reduced);
 
 impl<S: ConstrainedLagrangian<T>, R: Rule, T: Real> ConstrainedMemory<S, R, T> {
     /// At (`q`, `v`, `t`).

@@ -52,8 +52,8 @@ where
         let goes = matches!(self.frequency.reading(), None | Some(Reading::Averaged));
         StartError::unless_it(goes, "this reading of the frequency", "take Reading::Averaged")?;
         let goes = S::SEPARABLE || self.solver != Solver::FixedPoint;
-        let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities; take \
-                      Solver::Newton";
+        let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without \
+                      velocities; take Solver::Newton";
         StartError::unless_it(goes, "Solver::FixedPoint", reason)?;
         self.stopping.validate()?;
         let solver = match self.solver.in_numbers::<T>() {

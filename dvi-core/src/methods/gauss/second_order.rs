@@ -29,8 +29,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         self.place::<true>(system, h);
     }
 
-    /// Sets the positions of all stages by the forces, and returns the largest change of one, if they are not
-    /// the `FIRST`; `None` if the equations are not of second order.
+    /// Sets the positions of all stages by the forces, and returns the largest change of one, if they are
+    /// not the `FIRST`; `None` if the equations are not of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn place<const FIRST: bool>(&mut self, system: &S, h: T) -> Option<T> {
         let Self { equations, coefficients, terms, stages, y, renewed: free, weights, .. } = self;
