@@ -205,6 +205,32 @@ fn a_force_that_velocities_end_fails_in_the_next_step() -> Outcome {
     Ok(())
 }
 
+/// A relativistic charge, which turns in a magnetic field with the rate b/γ.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = -(1.0 - dot(x).powi(2) - dot(y).powi(2)).sqrt() + b / 2.0 * (x * dot(y) - y * dot(x)),
+)]
+struct Charge {
+    b: f64,
+}
+
+fn turns(method: impl Method<Charge, f64>, gamma: f64, steps: f64) -> bool {
+    let v = (1.0 - gamma.powi(-2)).sqrt();
+    let start = ChargeState { x: v, y: 0.0, dot_x: 0.0, dot_y: -v };
+    let run = Integrator::new(Charge { b: gamma }, method, core::f64::consts::TAU / (steps * gamma), start);
+    run.is_ok_and(|mut run| run.take_steps(100).is_ok())
+}
+
+#[test]
+fn a_guess_is_slower_than_light_if_the_steps_are_short() {
+    for gamma in [10.0, 100.0] {
+        let [few, many] = [8.0, 9.0].map(|steps| turns(Variational::midpoint(), gamma, steps));
+        assert!(!few && many, "midpoint, {gamma}: {few} {many}");
+        let [few, many] = [1.2, 2.0].map(|steps| turns(Gauss::<4>::new(), gamma, steps));
+        assert!(!few && many, "Gauss, {gamma}: {few} {many}");
+    }
+}
+
 #[test]
 fn a_matrix_that_is_no_number_is_not_called_singular() -> Outcome {
     #[degenerate_lagrangian(coordinates(x, y), one_form = y.sqrt() * d(x), hamiltonian = x * x / 2.0 + y)]

@@ -27,6 +27,11 @@ struct Oscillator<P> {
     b: P,
 }
 
+#[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - g * y, impact = y)]
+struct Ball<P> {
+    g: P,
+}
+
 /// The circulations of vortices are the parameters of α and of H.
 #[degenerate_lagrangian(
     coordinates(x[n], y[n]),
@@ -49,6 +54,32 @@ fn varied(value: f64) -> Varied<Dual64> {
 
 fn dual(value: f64) -> Dual64 {
     Dual64::from_re(value)
+}
+
+/// A ball after one bounce, against the closed form: an order less with the discrete energy.
+#[test]
+fn behind_an_impact_the_derivative_is_of_first_order() -> Outcome {
+    let (g, t): (f64, f64) = (1.3, 2.0);
+    let (fall, speed) = ((2.0 / g).sqrt(), (2.0 * g).sqrt());
+    let (since, rate) = (t - fall, fall / (2.0 * g));
+    let exact = since / speed + speed * rate - since.powi(2) / 2.0 - g * since * rate;
+    let errors = |collision, n: u16| -> Result<[f64; 2], Box<dyn std::error::Error>> {
+        let method = Impacts { collision, ..Impacts::new(Variational::midpoint()) };
+        let system = Ball { g: varied(g) };
+        let start = BallStateOf { y: dual(1.0), dot_y: dual(0.0) };
+        let mut run = Integrator::new(&system, method, dual(t / f64::from(n)), start)?;
+        run.take_steps(n.into())?;
+        assert_eq!(run.memory().total(), 1);
+        let y = run.state().y;
+        Ok([y.re - (speed * since - g * since.powi(2) / 2.0), y.eps - exact])
+    };
+    let [[_, coarse], [value, fine]] =
+        [errors(Collision::Variational, 20)?, errors(Collision::Variational, 2000)?];
+    assert!((90.0..110.0).contains(&(coarse / fine)), "{coarse} {fine}");
+    assert!(fine > 5e-5 && value.abs() < 1e-6, "{fine} {value}");
+    let [value, derivative] = errors(Collision::Reflection, 20)?;
+    assert!(value.abs() < 1e-12 && derivative.abs() < 1e-12, "{value} {derivative}");
+    Ok(())
 }
 
 /// Of Verlet's steps on an oscillator x(nh) = cos nθ with cos θ = 1 − kh²/2.

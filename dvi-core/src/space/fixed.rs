@@ -51,9 +51,12 @@ macro_rules! stored {
     ($(#[$doc:meta])* $Name:ident, $Storage:ident, $n:ident => $count:expr) => {
         $(#[$doc])*
         #[derive(Clone, Debug)]
-        pub struct $Name<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>(
+        pub struct $Name<T, const BLOCKS: usize, const N: usize, const SINGLES: usize, R>(
             R::$Storage<T, BLOCKS, N>,
-        );
+        )
+        where
+            T: Clone + Debug,
+            R: Room;
 
         impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Deref
             for $Name<T, BLOCKS, N, SINGLES, R>

@@ -156,12 +156,13 @@ impl<K: FirstOrder<S, T>, const W: usize, S: System, T: Real> FirstOrderAtStages
     {
         let StageWork { point, slope, .. } = work;
         // Forces of equations of second order depend on positions alone.
-        let is_alone = Self::OF_SECOND_ORDER && at.part > 0;
+        let of_positions = Self::OF_SECOND_ORDER && at.part > 0;
+        let parts = if of_positions { 1 } else { at.y.len() };
         for stage in 0..W {
-            for (to, from) in point.iter_mut().zip(at.y.iter()).take(if is_alone { 1 } else { usize::MAX }) {
+            for (to, from) in point.iter_mut().zip(at.y.iter()).take(parts) {
                 read_lane(stage, from, to);
             }
-            if !is_alone {
+            if !of_positions {
                 read_lane(stage, at.velocity, &mut slope[0]);
             }
             Self::evaluate_part(equations, at.system, at.part, point, at.t.0[stage], slope, statistics)?;
