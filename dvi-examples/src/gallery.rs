@@ -58,8 +58,8 @@ pub fn run(
     let pool = pool.context("cannot start the threads")?;
     let progress = Progress::new(experiments);
     let one = |number: usize| {
-        let Experiment { name, run, .. } = experiments[number];
-        let job = Job { name, folder, length, bar: progress.start(number) };
+        let Experiment { name, title, run, .. } = experiments[number];
+        let job = Job { name, title, folder, length, bar: progress.start(number) };
         let outcome = run(&job).and_then(|outcome| job.publish_motion().map(|()| outcome));
         let outcome = outcome.map_err(|error| format!("{error:#}"));
         let how = if outcome.is_ok() { "done" } else { "failed" };

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use indicatif::ProgressBar;
 
-use crate::experiments::title;
 use crate::motions;
 use crate::output::write_whole;
 use crate::vocabulary::*;
@@ -29,6 +28,7 @@ impl Length {
 #[derive(Debug)]
 pub struct Job<'a> {
     pub name: &'static str,
+    pub title: &'static str,
     pub folder: &'a Path,
     pub length: Length,
     pub bar: ProgressBar,
@@ -136,7 +136,7 @@ impl Job<'_> {
 
     /// Writes the figure (SVG and PNG), which says if its run was short, and its data (CSV).
     pub fn publish(&self, figure: Figure, data: Result<Table>) -> Result<()> {
-        let figure = figure.titled(&format!("{}{}", title(self.name), self.choose("", " — short form")));
+        let figure = figure.titled(&format!("{}{}", self.title, self.choose("", " — short form")));
         figure.save(self.folder, self.name)?;
         data?.save(self.folder, self.name)
     }

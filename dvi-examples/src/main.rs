@@ -79,7 +79,7 @@ fn run(options: &Options) -> Result<ExitCode> {
     })?;
     let mut parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);
     parts.retain(|part| chosen.iter().any(|experiment| experiment.name == part.experiment));
-    say(&format!("\n{}", summary::markdown(&parts)?))?;
+    say(&format!("\n{}", summary::markdown(&parts, experiments::ALL)?))?;
     eprintln!("look at {}", folder.join("index.html").display());
     let has_failed = parts.iter().any(|part| part.outcome.is_err());
     Ok(if has_failed { ExitCode::FAILURE } else { ExitCode::SUCCESS })
@@ -88,7 +88,7 @@ fn run(options: &Options) -> Result<ExitCode> {
 /// Writes what the parts of a folder say together, so that a run can be looked at, or stopped, at any time.
 fn write(folder: &Path, parts: &[Part]) -> Result<()> {
     record::save(folder, parts)?;
-    output::write_whole(&folder.join("summary.md"), summary::markdown(parts)?.as_bytes())?;
+    output::write_whole(&folder.join("summary.md"), summary::markdown(parts, experiments::ALL)?.as_bytes())?;
     output::write_whole(&folder.join("index.html"), page::html(parts, folder)?.as_bytes())
 }
 

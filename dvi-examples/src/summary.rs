@@ -7,6 +7,7 @@ use anyhow::{Context as _, Result};
 use askama::Template as _;
 
 use crate::claim::{Check, Claim, VERDICTS};
+use crate::gallery::Experiment;
 use crate::job::Length;
 use crate::record::Part;
 
@@ -14,13 +15,19 @@ use crate::record::Part;
 #[template(path = "summary.md")]
 struct Summary<'a> {
     parts: &'a [Part],
+    experiments: &'a [Experiment],
 }
 
-pub fn markdown(parts: &[Part]) -> Result<String> {
-    Summary { parts }.render().context("the summary cannot be written")
+/// The summary of these parts, with the titles that the experiments have.
+pub fn markdown(parts: &[Part], experiments: &[Experiment]) -> Result<String> {
+    Summary { parts, experiments }.render().context("the summary cannot be written")
 }
 
 impl Summary<'_> {
+    fn title(&self, name: &str) -> &'static str {
+        self.experiments.iter().find(|experiment| experiment.name == name).map_or("", |of| of.title)
+    }
+
     /// The forms of runs that there are parts of, how many, and what these decide.
     fn forms(&self) -> impl Iterator<Item = (&'static str, usize, String)> {
         let form = |length: Length| {
@@ -71,10 +78,12 @@ mod tests {
 
     #[test]
     fn a_summary_tells_verdicts_and_numbers_of_parts_of_both_forms() -> Result<()> {
-        let page = markdown(&[Length::Short, Length::Full].map(part))?;
+        let (name, title, source) = ("momenta", "Which scheme", "");
+        let momenta = Experiment { name, title, source, share: 1.0, run: |_| Ok(Outcome::default()) };
+        let page = markdown(&[Length::Short, Length::Full].map(part), &[momenta])?;
         for wanted in [
             "The full form, experiments: 1. ",
-            "## momenta: Which scheme keeps ",
+            "## momenta: Which scheme\n",
             "The short form, experiments: 1. Claims of the papers: reproduced 1, fails 1; claims beyond \
              them: holds 1, undecided 1; regression checks: passes 1.",
             "The short form, today.\n",

@@ -168,7 +168,3 @@ pub const ALL: &[Experiment] = &[
 pub fn names() -> Vec<&'static str> {
     ALL.iter().map(|experiment| experiment.name).collect()
 }
-
-pub fn title(name: &str) -> &'static str {
-    ALL.iter().find(|experiment| experiment.name == name).map_or("", |experiment| experiment.title)
-}
