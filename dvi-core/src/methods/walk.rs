@@ -13,6 +13,11 @@ pub(crate) const BLOCK: u64 = 256;
 pub(crate) trait Walk {
     /// How many points are looked at before a block ends.
     const WATCHED: u64 = 0;
+    /// Whether a block asks [`admit`](Self::admit) where it begins.
+    const ADMITS: bool = false;
+    /// Whether a single step has a short way of its own. It pays where the state is in registers; elsewhere
+    /// the step would not be compiled into the loop.
+    const ALONE: bool = true;
     /// Takes the step with this number; numbers begin at zero.
     fn step(&mut self, number: u64);
     /// The number of steps in the block at hand, a power of two up to [`BLOCK`].
@@ -44,7 +49,8 @@ pub(crate) trait Walk {
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn walk<W: Walk>(mut state: W, before: u64, count: u64) -> (u64, Result<(), StepFailure>) {
     let position = before & (state.block() - 1);
-    if count == 1 && position != 0 && position + W::WATCHED < state.block() {
+    let within = (position != 0 || !W::ADMITS) && position + W::WATCHED < state.block();
+    if W::ALONE && count == 1 && within {
         // The usual case of a run that is read at each step.
         state.step(0);
         return match state.examine(1) {
@@ -57,7 +63,8 @@ pub(crate) fn walk<W: Walk>(mut state: W, before: u64, count: u64) -> (u64, Resu
     }
     let (mut taken, mut at_once) = (0, BLOCK);
     while taken < count {
-        if (before + taken) & (state.block() - 1) == 0
+        if W::ADMITS
+            && (before + taken) & (state.block() - 1) == 0
             && let Err(failure) = state.admit(taken)
         {
             return (taken, Err(failure));

@@ -72,6 +72,7 @@ struct Leapfrog<'a, 'b, S: System, T: Real> {
 
 impl<S: DegenerateLagrangian<T>, T: Real> Walk for Leapfrog<'_, '_, S, T> {
     const WATCHED: u64 = 4;
+    const ADMITS: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) {

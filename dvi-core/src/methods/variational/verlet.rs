@@ -38,9 +38,7 @@ pub(super) fn steps<S: NondegenerateLagrangian<T>, T: Real>(
     p1.copy_from_slice(&phase.p);
     f1.copy_from_slice(&phase.force);
     let half = T::lift(0.5) * clock.step_size();
-    // Nothing is done where a block begins: on the stack a single step takes the short way within a block.
-    let before = u64::from(<S::Space as Space>::ON_STACK);
-    walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v, owed: false }, before, count)
+    walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v, owed: false }, 0, count)
 }
 
 /// The present point, momentum and force, and where they are kept.
@@ -92,6 +90,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
+    const ALONE: bool = <S::Space as Space>::ON_STACK;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) {
         if self.owed {
