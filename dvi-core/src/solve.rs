@@ -147,9 +147,6 @@ pub(crate) fn repeat<T: Real>(
 
 /// Newton's method: iterates until a correction counts as the last. `improve` is as [`Iteration::improve`];
 /// an iteration takes so long that a pointer to it costs nothing.
-///
-/// # Errors
-/// As [`repeat`].
 #[inline]
 pub(crate) fn newton<T: Real>(
     stopping: Stopping,
@@ -161,9 +158,6 @@ pub(crate) fn newton<T: Real>(
 
 /// Attempts a step from what the last steps let expect, and from zero where that fails: where steps are
 /// long, extrapolation is off, or leads to another branch.
-///
-/// # Errors
-/// That of the last attempt.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn from_either_guess(
     mut attempt: impl FnMut(Guess) -> Result<(), StepFailure>,
@@ -206,9 +200,6 @@ impl<N> Ladder<N> {
 
     /// Solves the step of `attempt`: by the fixed point where this run has one, and by Newton where it has
     /// not or that fails; by Newton a second time from another guess where it fails too.
-    ///
-    /// # Errors
-    /// That of the last attempt.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve<A>(
         &mut self,

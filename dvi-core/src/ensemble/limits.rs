@@ -68,9 +68,6 @@ const SOON: f64 = 1e-5;
 
 impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
     /// The limit beyond which a run begins, or which it leaves outwards, if there is one.
-    ///
-    /// # Errors
-    /// Those of a run that begins, with a short step, where this one does.
     pub(super) fn beyond(
         &self,
         system: &'a S,

@@ -43,9 +43,6 @@ pub(super) struct Attempt<'a, S: System, T: Real> {
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     /// Takes the step by what `ladder` has.
-    ///
-    /// # Errors
-    /// Those of the last way that was tried.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn take<E: Equations<S, T>>(
         self,

@@ -213,9 +213,6 @@ impl<R: Run> Dense<R> {
     }
 
     /// Takes the steps again that lead from where one was kept to where the last one began.
-    ///
-    /// # Errors
-    /// As [`Method::step`].
     pub(super) fn settle(&mut self) -> Result<(), StepFailure> {
         self.most = 1;
         let (Some(clock), 2..) = (self.run.clock(), self.taken) else { return Ok(()) };
@@ -259,9 +256,6 @@ impl<R: Run> Dense<R> {
 
     /// The time at a part of the last step, and the state there; where its velocity jumps, that behind the
     /// jump.
-    ///
-    /// # Errors
-    /// As [`reach`](Self::reach).
     pub(super) fn at_part(&mut self, part: R::Scalar) -> Result<(R::Scalar, StateOf<R>), StepFailure> {
         let mut behind_jump = None;
         for jump in 0..JUMPS {
@@ -279,9 +273,6 @@ impl<R: Run> Dense<R> {
     }
 
     /// The end of the step.
-    ///
-    /// # Errors
-    /// As [`Method::velocity`].
     pub(super) fn at_end(&mut self) -> Result<FlatOf<'_, R>, StepFailure> {
         let t = self.run.time();
         let (system, between) = self.run.between();

@@ -21,9 +21,6 @@ where
     C: StepControl<H::System, T> + Clone,
 {
     /// Another run that goes on from `checkpoint`, one of this run or of one like it.
-    ///
-    /// # Errors
-    /// As [`Integrator::resume`] and [`Integrator::resume_controlled`].
     pub(crate) fn going_on_from(&self, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
         if C::ONE_LENGTH && checkpoint.step_size() != self.step_size() {
             return Err(CheckpointError::Damaged.into());

@@ -24,9 +24,6 @@ pub(crate) const APART: f64 = 1e-5;
 /// value in between, by a cubic through values and slopes. `None` if there is no reason to look, or none is
 /// found. Of a convex function none is overlooked; of another that turns in between, the first `sure` looks
 /// go to its turn whatever the cubic says of the value there.
-///
-/// # Errors
-/// Those of `look`.
 pub(crate) fn dip<T: Real, E>(
     [mut from, mut to]: [Sample<T>; 2],
     sure: usize,
@@ -69,9 +66,6 @@ pub(crate) struct Zero<T> {
 /// The zero of a function between two places, given with its values there, one of which is negative and one
 /// is not: by regula falsi with the damping of Anderson & Björck (1973), and by bisection where that is
 /// slow. The place is the last one that `look` was asked for, or `b`.
-///
-/// # Errors
-/// Those of `look`.
 pub(crate) fn zero<T: Real, E>(
     [mut a, mut b]: [[T; 2]; 2],
     look: &mut dyn FnMut(T) -> Result<T, E>,

@@ -57,9 +57,6 @@ impl<T: Real, E: Linearize<T>> LinearEquations<T> for AtIncrement<'_, T, E> {
 
 /// The residual at an increment `delta` of `q0`, relative to what it is made of. No correction is left in
 /// `correction`.
-///
-/// # Errors
-/// Those of the equations.
 #[cold]
 pub(crate) fn residual<T: Real>(
     equations: &mut impl Linearize<T>,

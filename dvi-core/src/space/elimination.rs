@@ -34,9 +34,6 @@ pub(crate) fn factor<T: Real>(matrix: &mut [T], permutation: &mut [usize]) -> Re
 
 /// The same of a matrix whose rows and columns may have units of very different size. Rows are compared in
 /// their `scales`, as by [`eliminate`].
-///
-/// # Errors
-/// As [`factor`].
 #[inline]
 pub(crate) fn factor_in_any_units<T: Real>(
     matrix: &mut [T],
@@ -58,9 +55,6 @@ pub(crate) fn factor_in_any_units<T: Real>(
 /// To first order, errors δA change pivot k by x·δA y, where x is row k of L⁻¹ and y solves U y = uₖₖ eₖ
 /// within the first k columns: that is the derivative of uₖₖ = det Aₖ / det Aₖ₋₁ with respect to the
 /// entries, for the leading minors Aₖ of PA.
-///
-/// # Errors
-/// As [`factor`].
 pub(crate) fn factor_with_care<T: Real>(
     matrix: &mut [T],
     permutation: &mut [usize],
@@ -191,9 +185,6 @@ const SHORT: usize = 8;
 /// As no multipliers are kept, a row operation may run over columns that are already done: over all of
 /// them in short rows, which are then straight vector code of known length, and elsewhere over those that
 /// fill up the first four.
-///
-/// # Errors
-/// As [`factor`].
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn eliminate<T: Real>(
     matrix: &mut [T],

@@ -24,9 +24,6 @@ impl<T: Real> Inertia<T> {
     }
 
     /// Of a diagonal matrix.
-    ///
-    /// # Errors
-    /// As [`inertia`].
     pub(crate) fn of_diagonal(entries: &[T]) -> Result<Self, StepFailure> {
         let mut found = Self::none();
         for (column, &entry) in entries.iter().enumerate() {

@@ -63,9 +63,6 @@ impl<const STAGES: usize, S: Lagrangian<T>, T: Real> NewtonStages<STAGES, S, T> 
 
     /// Improves the increments from a guess until the equations `E` hold, and gives each stage to `take`:
     /// its number and time, its point, velocity and momentum, and F there.
-    ///
-    /// # Errors
-    /// As [`solve_coupled`], or what `take` finds.
     pub(in crate::methods) fn solve<E: StageEquations<S, T>>(
         &mut self,
         system: &S,

@@ -40,9 +40,6 @@ pub(super) fn solver<const STAGES: usize, S: System, T: Real>(solver: Solver) ->
 }
 
 /// Finds the slopes and terms of the step from `q`.
-///
-/// # Errors
-/// As [`NewtonStages::solve`], or what is found at a stage.
 pub(super) fn solve<const STAGES: usize, S, T: Real>(
     newton: &mut NewtonStages<STAGES, S, T>,
     system: &S,

@@ -51,9 +51,6 @@ pub(super) fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
 
 impl<T: Real> Sigma<T> {
     /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
-    ///
-    /// # Errors
-    /// As [`Method::begin`].
     pub(crate) fn begin_between<S: DegenerateLagrangian<T>>(
         &self,
         system: &S,

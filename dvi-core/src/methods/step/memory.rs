@@ -95,9 +95,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real, X, N> PhaseMemory<S, T, X, N> {
 
 impl<S: NondegenerateLagrangian<T>, T: Real, X> PhaseMemory<S, T, X> {
     /// Of a run from (`q`, `v`, `t`).
-    ///
-    /// # Errors
-    /// As [`Carried::new`].
     pub(in crate::methods) fn new(
         system: &S,
         (q, v, t): (&[T], &[T], T),

@@ -72,9 +72,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     }
 
     /// Finds the events of the last step: to be called after each step.
-    ///
-    /// # Errors
-    /// As [`Events::next_until`](super::Events::next_until).
     pub(super) fn search(&mut self, run: &mut Dense<R>) -> Result<(), StepError> {
         self.find(run).map_err(|failure| {
             let error = run.error(failure);

@@ -91,9 +91,6 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     /// Where a step of length `h`, which has been taken, is to end instead, if it leads to the other side of
     /// a seam. The run has then been moved to the place before that. Where the step begins `at_break`, a seam
     /// that is there is left to the break.
-    ///
-    /// # Errors
-    /// Those of the steps to that place.
     pub(super) fn end<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
@@ -175,9 +172,6 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
 
     /// Moves the run from the place before a seam, if it is at one, to that behind it, and returns whether
     /// the motion goes on there, to the `tolerance`.
-    ///
-    /// # Errors
-    /// Those of the step.
     pub(super) fn cross<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
