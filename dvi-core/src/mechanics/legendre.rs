@@ -8,7 +8,7 @@ use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
 use crate::scalar::passes::subtract;
 use crate::solve::{Due, Stopping, newton, sizes};
-use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear};
+use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear, scratch};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Vector, Weights};
 
@@ -120,7 +120,9 @@ pub(crate) struct Equations<'a, S, T> {
 impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let [q, v, p] = self.points;
-        self.system.linearize(q, v, self.t, Weights::mass(), self.l_q, b, sink);
+        // On the stack, where nobody reads it, ∂L/∂q is not computed.
+        scratch!(l_q = self.system, *self.l_q);
+        self.system.linearize(q, v, self.t, Weights::mass(), l_q, b, sink);
         subtract(b, p);
         Ok(())
     }
