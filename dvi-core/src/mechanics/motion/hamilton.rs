@@ -144,9 +144,11 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             // The velocity of the last stage leads to the one that belongs to the new momentum, if there is
             // one.
             legendre.solve(system, arrival, momentum, t, latest)?;
-            // Between two branches of ∂L/∂v(v) = p the mass matrix changes its sign.
-            norm::mean(velocity, latest, between);
-            orientation.check(system, arrival, between, t)?;
+            if !S::QUADRATIC {
+                // Between two branches of ∂L/∂v(v) = p the mass matrix changes its sign.
+                norm::mean(velocity, latest, between);
+                orientation.check(system, arrival, between, t)?;
+            }
             orientation.check(system, arrival, latest, t)?;
             velocity.copy_from_slice(latest);
         }
