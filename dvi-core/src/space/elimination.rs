@@ -13,6 +13,8 @@
 //! scales of the rows, and changes no number by them.
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
+use core::ops::Deref;
+
 use crate::error::StepFailure;
 use crate::scalar::norm::{finite, is_pivot, larger, singular};
 use crate::space::linear::set_scales;
@@ -158,10 +160,16 @@ fn pivot_row<T: Real>(
     if is_pivot(pivot, rounding * above) { Ok(row) } else { Err(singular(pivot, k)) }
 }
 
-/// Overwrites `x` with the solution of A y = x, A as left behind by [`factor`].
+/// Overwrites `x` with the solution of A y = x, A as left behind by [`factor`]. It sees the storage, and with
+/// it a number of equations that is fixed.
 #[inline]
-pub(crate) fn solve<T: Real>(matrix: &[T], permutation: &[usize], x: &mut [T]) {
+pub(crate) fn solve<T: Real>(
+    matrix: &impl Deref<Target = [T]>,
+    permutation: &impl Deref<Target = [usize]>,
+    x: &mut [T],
+) {
     let n = permutation.len();
+    let x = &mut x[..n];
     for k in 0..n {
         x.swap(k, permutation[k]);
     }

@@ -158,7 +158,7 @@ impl<const NODES: usize, T: Real> Fit<NODES, T> {
         for k in 0..n {
             let mut column = [zero; UNKNOWNS];
             column[k] = T::lift(1.0);
-            elimination::solve(matrix, permutation, &mut column[..n]);
+            elimination::solve(&matrix, &permutation, &mut column[..n]);
             for r in 0..n {
                 self.inverse[r + 1][k + 1] = column[r];
             }

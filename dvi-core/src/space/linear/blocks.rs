@@ -40,11 +40,11 @@ where
         elimination::factor_in_any_units(pivot, permutation, scales)?;
         for block in right.iter_mut() {
             for column in lines_mut(block, n) {
-                elimination::solve(pivot, permutation, column);
+                elimination::solve(pivot, &permutation, column);
             }
         }
         let (x_done, x_rest) = x.split_at_mut(k + 1);
-        elimination::solve(pivot, permutation, &mut x_done[k]);
+        elimination::solve(pivot, &permutation, &mut x_done[k]);
         for (row, x) in rest.iter_mut().zip(x_rest) {
             let (factors, targets) = row.split_at_mut(k + 1);
             subtract_product(&factors[k], &x_done[k], x);
