@@ -30,11 +30,16 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
         Self { system, start: start.into() }
     }
 
-    pub fn run(&self, method: impl Method<S, f64> + 'a, h: f64) -> Result<AnyRun<'a, S>> {
-        Ok(Box::new(Integrator::new(self.system, method, h, self.start.clone())?))
+    pub fn run<M: Method<S, f64>>(&self, method: M, h: f64) -> Result<Integrator<&'a S, M>> {
+        Ok(Integrator::new(self.system, method, h, self.start.clone())?)
     }
 
-    pub fn up_to(&self, method: impl Method<S, f64> + 'a, h: f64, end: f64) -> Result<S::State<f64>> {
+    /// A run beside others of other methods.
+    pub fn any(&self, method: impl Method<S, f64> + 'a, h: f64) -> Result<AnyRun<'a, S>> {
+        Ok(Box::new(self.run(method, h)?))
+    }
+
+    pub fn up_to(&self, method: impl Method<S, f64>, h: f64, end: f64) -> Result<S::State<f64>> {
         let mut run = self.run(method, h)?;
         run.take_steps((end / h).round() as u64)?;
         Ok(run.state())
@@ -42,7 +47,7 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
 
     /// The largest difference of a coordinate or velocity from the start, after steps there and as many
     /// back.
-    pub fn there_and_back(&self, by: impl Method<S, f64> + Copy + 'a, h: f64, steps: u64) -> Result<f64> {
+    pub fn there_and_back(&self, by: impl Method<S, f64> + Copy, h: f64, steps: u64) -> Result<f64> {
         let mut there = self.run(by, h)?;
         there.take_steps(steps)?;
         let mut back = Integrator::new_at(self.system, by, there.time(), -h, there.state())?;
@@ -58,7 +63,7 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
     }
 
     /// Iterations of a step, on average over so many of them.
-    pub fn iterations(&self, method: impl Method<S, f64> + 'a, h: f64, steps: u64) -> Result<f64> {
+    pub fn iterations(&self, method: impl Method<S, f64>, h: f64, steps: u64) -> Result<f64> {
         let mut run = self.run(method, h)?;
         run.take_steps(steps)?;
         Ok(run.statistics().iterations as f64 / steps as f64)
@@ -80,16 +85,16 @@ pub struct Convergence<'a, S: System, E> {
 
 impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Convergence<'a, S, E> {
     /// The lengths of the steps of a method, each with the error.
-    pub fn of(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Vec<(f64, f64)>> {
+    pub fn of(&self, method: impl Method<S, f64> + Clone) -> Result<Vec<(f64, f64)>> {
         let error = |&steps: &u64| {
             let mut run = self.problem.run(method.clone(), self.end / steps as f64)?;
             run.take_steps(steps)?;
             Ok((self.end / steps as f64, (self.error)(run.q())))
         };
-        self.counts.iter().map(error).collect()
+        all(&self.counts, error)
     }
 
-    pub fn order(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Option<f64>> {
+    pub fn order(&self, method: impl Method<S, f64> + Clone) -> Result<Option<f64>> {
         Ok(order(self.of(method)?))
     }
 }

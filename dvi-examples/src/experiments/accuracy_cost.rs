@@ -97,12 +97,12 @@ where
 {
     let h = end / steps;
     let mut run = match method {
-        0 => begin.run(second, h)?,
-        RK4 => begin.run(RungeKutta::classical(), h)?,
-        KAHAN_LI => begin.run(Composition::kahan_li_8(composed), h)?,
-        3 => begin.run(Gauss::<2>::new(), h)?,
-        4 => begin.run(Gauss::<4>::new(), h)?,
-        _ => begin.run(Gauss::<8>::new(), h)?,
+        0 => begin.any(second, h)?,
+        RK4 => begin.any(RungeKutta::classical(), h)?,
+        KAHAN_LI => begin.any(Composition::kahan_li_8(composed), h)?,
+        3 => begin.any(Gauss::<2>::new(), h)?,
+        4 => begin.any(Gauss::<4>::new(), h)?,
+        _ => begin.any(Gauss::<8>::new(), h)?,
     };
     let (initial, mut error) = (run.energy(), 0.0);
     job.follow(&mut run, steps as u64, |run| {

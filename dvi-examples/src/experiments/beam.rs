@@ -100,7 +100,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 /// E/E(0) − 1.
-fn vibration<S: Lagrangian>(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, S>, end: f64) -> Series<1> {
+fn vibration(job: &Job<'_>, named: Named<'_>, mut run: impl Run<Scalar = f64>, end: f64) -> Series<1> {
     let (span, begin) = (Span { end, early: 2.0 * period(), intervals: 200 }, run.energy());
     job.series(named, &mut run, span, |run, _| [run.energy() / begin - 1.0])
 }

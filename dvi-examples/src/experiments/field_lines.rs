@@ -23,8 +23,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     // How well a line of the unperturbed tokamak stays on its surface: (ψ − ψ(0))/ψ(0) after each step.
     let line = Problem::new(&UNPERTURBED, (1.0 + RHO, 0.0));
     let runs = [
-        (("one step, midpoint", solid(BLUE)), line.run(OneStep::midpoint(), TAU / STEPS as f64)?),
-        (("RK4", dashed(VERMILLION)), line.run(RungeKutta::classical(), TAU / STEPS as f64)?),
+        (("one step, midpoint", solid(BLUE)), line.any(OneStep::midpoint(), TAU / STEPS as f64)?),
+        (("RK4", dashed(VERMILLION)), line.any(RungeKutta::classical(), TAU / STEPS as f64)?),
     ];
     let surfaces = each(runs, |(named, mut run)| {
         let mut kept = Span { end: turns as f64, early: 1000.0, intervals: 400 }.envelopes();

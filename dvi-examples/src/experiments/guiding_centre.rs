@@ -69,10 +69,10 @@ fn orbit(job: &Job<'_>, u: f64, steps: u64) -> Result<Orbit> {
     ])
 }
 
-fn follow<S: Lagrangian>(
+fn follow(
     job: &Job<'_>,
     named: Named<'_>,
-    mut run: AnyRun<'_, S>,
+    mut run: impl Run<Scalar = f64>,
     place: impl Fn(&[f64]) -> [f64; 2],
     steps: u64,
 ) -> Result<Series<2>> {

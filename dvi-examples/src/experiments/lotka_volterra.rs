@@ -22,9 +22,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let two_steps = ("two steps, σ = ½", solid(VERMILLION));
     let two_step = job.energy(two_steps, symmetric.run(unwatched(Sigma::midpoint()), H)?, short, places);
     let runs = [
-        (midpoint, one_sided.run(OneStep::midpoint(), H)?),
-        (gauss, one_sided.run(OneStepGauss::<2>::new(), H)?),
-        (("RK4", dashed(SLATE)), one_sided.run(RungeKutta::classical(), H)?),
+        (midpoint, one_sided.any(OneStep::midpoint(), H)?),
+        (gauss, one_sided.any(OneStepGauss::<2>::new(), H)?),
+        (("RK4", dashed(SLATE)), one_sided.any(RungeKutta::classical(), H)?),
     ];
     let [one, other, rk4] = each(runs, |(named, run)| job.energy(named, run, span, places).whole())?;
     let all = [one, other, rk4, two_step];

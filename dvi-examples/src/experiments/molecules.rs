@@ -62,7 +62,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ])
 }
 
-fn kept<S: Lagrangian>(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, S>, end: f64) -> Result<Kept> {
+fn kept(job: &Job<'_>, named: Named<'_>, mut run: impl Run<Scalar = f64>, end: f64) -> Result<Kept> {
     let (energy, begin): (_, [f64; 3]) = (run.energy(), momenta(&run));
     job.series(named, &mut run, Span { end, early: 0.1 * end, intervals: 250 }, |run, _| {
         let ([length, along], [x, y, angular]) = (sides(run), difference(momenta(run), begin));

@@ -39,7 +39,7 @@ impl Sleigh {
     pub fn new() -> Result<Self> {
         let runs = each(STEPS, |h| {
             let mut run = begin().run(midpoint(), h)?;
-            let all = |run: &AnyRun<'_, _>| (run.time(), run.state(), run.energy());
+            let all = |run: &Integrator<_, _>| (run.time(), run.state(), run.energy());
             Ok(course(&mut run, steps(STRAIGHT, h) as u64, all)?)
         })?;
         let (mut fine, mut motion) = (Accelerations::new(&SLEIGH, FINE, &START)?, vec![START]);

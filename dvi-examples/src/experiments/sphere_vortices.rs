@@ -23,9 +23,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(3 * steps);
     let (three, span) = (three(), Span { intervals: 100, ..Span::of(steps, H, EARLY) });
     let runs = [
-        (("one step, midpoint", solid(BLUE)), three.run(OneStep::midpoint(), H)?),
-        (("one step, Gauss of order 4", solid(SKY)), three.run(OneStepGauss::<2>::new(), H)?),
-        (("RK4", dashed(VERMILLION)), three.run(RungeKutta::classical(), H)?),
+        (("one step, midpoint", solid(BLUE)), three.any(OneStep::midpoint(), H)?),
+        (("one step, Gauss of order 4", solid(SKY)), three.any(OneStepGauss::<2>::new(), H)?),
+        (("RK4", dashed(VERMILLION)), three.any(RungeKutta::classical(), H)?),
     ];
     let all = each(runs, |(named, mut run)| {
         let of_three = |run: &AnyRun<'_, _>| moment(THREE.gamma, THREE.places(run.q()));

@@ -20,9 +20,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e4, 100.0);
     job.expect(5 * (end / H).round() as u64);
     let newmark = each(BETAS, |(beta, name, colour)| {
-        kept(job, (name, solid(colour)), first().run(Newmark::new(beta), H)?, stiffness(beta, H), end)
+        kept(job, (name, solid(colour)), first().any(Newmark::new(beta), H)?, stiffness(beta, H), end)
     })?;
-    let rk4 = kept(job, ("RK4", solid(VERMILLION)), first().run(RungeKutta::classical(), H)?, 1.0, end)?;
+    let rk4 = kept(job, ("RK4", solid(VERMILLION)), first().any(RungeKutta::classical(), H)?, 1.0, end)?;
     let motion = Exchange::motion(CENTRES[0])?;
     let exchanges = each(BETAS, |(beta, ..)| Exchange::newmark(beta, CENTRES[0], H))?;
     let long = Exchange::newmark(0.25, CENTRES[0], LONG)?;

@@ -56,7 +56,7 @@ fn begin([x, y, z]: Species) -> Problem<'static, ThreeSpecies> {
     Problem::new(&ThreeSpecies {}, ThreeSpeciesState { x, s: 0.0, y, w: product.ln() })
 }
 
-fn run_from(start: Species) -> Result<AnyRun<'static, ThreeSpecies>> {
+fn run_from(start: Species) -> Result<Integrator<&'static ThreeSpecies, OneStep>> {
     begin(start).run(OneStep::midpoint(), H)
 }
 
