@@ -24,7 +24,7 @@ pub(crate) fn visit_second_derivatives<S: Lagrangian<T>, T: Real>(
 ) {
     let (one, [mut l_q, mut l_v]): (T, [Vector<S, T>; 2]) = (T::lift(1.0), system.space().vectors());
     let weights = Weights { qq: one, qv: one, vq: one, vv: one };
-    let mut places = |row: usize, column: usize, _: T| visit(row, column);
+    let mut places: &mut dyn FnMut(usize, usize, T) = &mut |row, column, _| visit(row, column);
     system.linearize(q, v, t, weights, &mut l_q, &mut l_v, &mut places);
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn mass_entries<S: Lagrangian<T>, T: Real>(
     mut add: impl FnMut(usize, usize, T),
 ) {
     let [mut l_q, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
-    let mut sink = |row: usize, column: usize, entry: T| {
+    let mut sink: &mut dyn FnMut(usize, usize, T) = &mut |row, column, entry| {
         if entry != T::lift(0.0) {
             add(row, column, entry);
         }

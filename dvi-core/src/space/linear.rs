@@ -48,7 +48,8 @@ pub(crate) fn residual<T: Real>(
     for (i, sum) in sums.iter_mut().enumerate() {
         *sum = Scalar::abs(given(i));
     }
-    equations.evaluate(b, &mut |i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j)))?;
+    let mut sink: &mut dyn FnMut(usize, usize, T) = &mut |i, j, a| sums[i] += Scalar::abs(a * size(j));
+    equations.evaluate(b, &mut sink)?;
     relative(b, sums)
 }
 
