@@ -8,13 +8,16 @@ use crate::scalar::spinor;
 /// The names of all entries of the states of `system`, coordinates first, each with its place among the
 /// coordinates or among the velocities. Those of unit vectors of a degenerate system stand where
 /// [`lower_all`](super::spinors::lower_all) puts them.
-pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
-    Entries { system, is_velocity: false, block: 0, first: 0, index: 0 }
+pub(crate) fn entries<S: System>(system: &S) -> impl Iterator<Item = (Name, usize)> {
+    let mut place = Place::default();
+    core::iter::from_fn(move || {
+        place.pass(S::REPORT.coordinates, S::REGULAR, &|block| system.block_len(block))
+    })
 }
 
 /// Stands before an entry.
-pub(crate) struct Entries<'a, S> {
-    system: &'a S,
+#[derive(Default)]
+struct Place {
     is_velocity: bool,
     /// The number of a block of coordinates, the first of a vector, and the place of its first coordinate.
     block: usize,
@@ -23,26 +26,30 @@ pub(crate) struct Entries<'a, S> {
     index: usize,
 }
 
-impl<S: System> Iterator for Entries<'_, S> {
-    type Item = (Name, usize);
-
-    fn next(&mut self) -> Option<Self::Item> {
+impl Place {
+    /// The entry behind, in blocks of these lengths.
+    fn pass(
+        &mut self,
+        declared: &[CoordinateBlock],
+        is_regular: bool,
+        len: &dyn Fn(usize) -> usize,
+    ) -> Option<(Name, usize)> {
         loop {
-            let Some(declared) = S::REPORT.coordinates.get(self.block) else {
-                if self.is_velocity || !S::REGULAR {
+            let &mut Self { is_velocity, block, first, index } = self;
+            let Some(here) = declared.get(block) else {
+                if is_velocity || !is_regular {
                     return None;
                 }
-                *self = Self { is_velocity: true, ..entries(self.system) };
+                *self = Self { is_velocity: true, ..Self::default() };
                 continue;
             };
-            let &CoordinateBlock { name, size, axis, factor } = declared;
-            let &mut Self { system, is_velocity, block, first, index } = self;
-            let coordinates = system.block_len(block);
+            let &CoordinateBlock { name, size, axis, factor } = here;
+            let coordinates = len(block);
             let blocks = axis.map_or(1, |axis| usize::from(axis.of));
             // Of the components of an array, or of the entries of one, not all have velocities.
             let velocities = |of| if is_velocity { factor.velocities(of) } else { of };
             let [components, count] = match axis {
-                Some(_) if is_spinor(declared, S::REGULAR) => [spinor::COMPONENTS, coordinates],
+                Some(_) if is_spinor(here, is_regular) => [spinor::COMPONENTS, coordinates],
                 Some(_) => [velocities(blocks), coordinates],
                 None => [1, velocities(coordinates)],
             };
@@ -50,7 +57,7 @@ impl<S: System> Iterator for Entries<'_, S> {
                 self.index += 1;
                 let (entry, number) = (index / components, index % components);
                 let index = (!size.is_empty()).then_some(entry);
-                let length = system.block_len(S::REPORT.coordinates.len() + block);
+                let length = len(declared.len() + block);
                 let row = index.and_then(|index| index.checked_div(length));
                 let index = index.map(|index| index.checked_rem(length).unwrap_or(index));
                 let axis = axis.map(|_| Axis { number: number as u8, of: components as u8 });

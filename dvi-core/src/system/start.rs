@@ -58,10 +58,9 @@ pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     } else {
         (StepFailure::OMEGA, Weights { qv: one, vq: -one, ..Weights::none() })
     };
-    let mut sink = |row: usize, _: usize, entry: T| sizes[row] += Scalar::abs(entry);
+    let mut sink: &mut dyn FnMut(usize, usize, T) = &mut |row, _, entry| sizes[row] += Scalar::abs(entry);
     system.linearize(q, &velocity, t, weights, &mut l_q, &mut l_v, &mut sink);
-    let is_singular = |place: &usize| !(one / sizes[*place]).is_finite();
-    let empty = (0..sizes.len()).find(is_singular);
+    let empty = sizes.iter().position(|&size| !(one / size).is_finite());
     match (empty, coordinate(system, empty.unwrap_or(column))) {
         (Some(row), Some(entry)) => StartError::Singular { matrix, entry, size: reported(sizes[row]) },
         (None, Some(entry)) if solved == matrix && pivot.is_finite() => {
@@ -99,7 +98,12 @@ fn coordinate<S: System>(system: &S, place: usize) -> Option<Name> {
     {
         return Some(vector);
     }
-    entries(system).find(|(name, at)| !name.is_velocity && *at == place).map(|(name, _)| name)
+    for (name, at) in entries(system) {
+        if !name.is_velocity && at == place {
+            return Some(name);
+        }
+    }
+    None
 }
 
 /// Whether energy and derivatives of L are finite at the start of a run.
@@ -114,43 +118,39 @@ pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     v: &[T],
     t: T,
 ) -> Result<(), StartError> {
-    finite_derivatives(system, q, v, t)
-        .map_err(|error| system.outside(q, v, t).map_or(error, StartError::Outside))
+    let [mut l_q, mut l_v, mut applied]: [Vector<S, T>; 3] = system.space().vectors();
+    // Of a degenerate system v is zero here, and ∂L/∂q is −∇H.
+    system.gradient(q, v, t, &mut l_q, &mut l_v);
+    system.applied_force(q, v, t, &mut applied);
+    let undefined = first_undefined(S::REGULAR, [&l_v, &l_q, &applied], system.energy(q, v, t));
+    let Some((quantity, place, value)) = undefined else { return Ok(()) };
+    let coordinate = place.and_then(|place| coordinate(system, place));
+    let error = StartError::Undefined { quantity, coordinate, value };
+    Err(system.outside(q, v, t).map_or(error, StartError::Outside))
 }
 
 /// What is not a number of friction such as R = μ|v| at rest.
 const APPLIED: &str = "the applied force (`force`, and −∂R/∂v of `dissipation`)";
 
-fn finite_derivatives<S: Lagrangian<T>, T: Real>(
-    system: &S,
-    q: &[T],
-    v: &[T],
-    t: T,
-) -> Result<(), StartError> {
-    let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
-    // Of a degenerate system v is zero here, and ∂L/∂q is −∇H.
-    system.gradient(q, v, t, &mut l_q, &mut l_v);
-    let [momentum, force] = if S::REGULAR {
-        ["the momentum ∂L/∂v", "the force ∂L/∂q"]
+/// The first of momentum, force and energy that is not finite, with its place and its value.
+fn first_undefined<T: Real>(
+    is_regular: bool,
+    [momentum, force, applied]: [&[T]; 3],
+    energy: T,
+) -> Option<(&'static str, Option<usize>, f64)> {
+    let [of_momentum, of_force, of_energy] = if is_regular {
+        ["the momentum ∂L/∂v", "the force ∂L/∂q", "the energy"]
     } else {
-        ["the one-form α", "the gradient of H"]
+        ["the one-form α", "the gradient of H", "the Hamiltonian"]
     };
-    for (quantity, values) in [(momentum, &l_v), (force, &l_q)] {
+    for (quantity, values) in [(of_momentum, momentum), (of_force, force)] {
         if let Some(place) = values.iter().position(|x| !x.is_finite()) {
-            let (value, coordinate) = (reported(values[place]), coordinate(system, place));
-            let mut applied: Vector<S, T> = system.space().vector();
-            system.applied_force(q, v, t, &mut applied);
-            let is_applied = quantity == force && !applied[place].is_finite();
+            let is_applied = quantity == of_force && !applied[place].is_finite();
             let quantity = if is_applied { APPLIED } else { quantity };
-            return Err(StartError::Undefined { quantity, coordinate, value });
+            return Some((quantity, Some(place), reported(values[place])));
         }
     }
-    let energy = system.energy(q, v, t);
-    if energy.is_finite() {
-        return Ok(());
-    }
-    let quantity = if S::REGULAR { "the energy" } else { "the Hamiltonian" };
-    Err(StartError::Undefined { quantity, coordinate: None, value: reported(energy) })
+    (!energy.is_finite()).then(|| (of_energy, None, reported(energy)))
 }
 
 /// H and the coordinate `energy` may differ by this part of them where a run begins.
@@ -174,6 +174,9 @@ pub(crate) fn consistent<S: Lagrangian<T>, T: Real>(
     q: &Vector<S, T>,
     t: T,
 ) -> Result<(), StartError> {
+    if !S::TIME_TRANSFORMED {
+        return Ok(());
+    }
     let Some(transform) = system.time_transform(q) else { return Ok(()) };
     let [rate, hamiltonian] = [transform.rate, transform.hamiltonian].map(reported);
     if rate.is_nan() || rate <= 0.0 || rate.is_infinite() {
@@ -213,7 +216,10 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
 
 /// Checks that the entries of a state are finite.
 pub(crate) fn finite<S: System, T: Real>(system: &S, q: &[T], v: &[T]) -> Result<(), StartError> {
-    for (entry, value) in system.names().zip(system.values_of(q, v)) {
+    let lowered = spinors::lowered(system, q);
+    let q = lowered.as_deref().unwrap_or(q);
+    for (entry, place) in entries(system) {
+        let value = if entry.is_velocity { v[place] } else { q[place] };
         if !value.is_finite() {
             return Err(StartError::NotFinite { entry, value: reported(value) });
         }
