@@ -42,7 +42,7 @@ pub(super) fn point<S: Lagrangian<T>, T: Real>(
 #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
 pub(super) fn carried<S: Lagrangian<T>, C: StepControl<S, T>, K, T: Real>(
     system: &S,
-    [q, all]: [Vector<S, T>; 2],
+    [q, all]: &[Vector<S, T>; 2],
     t: T,
     control: impl FnOnce(&[T], &[T]) -> Result<(C::Memory, T), StartError>,
     method: impl Fn(&Vector<S, T>, &[T], T) -> Result<K, StartError>,
@@ -50,14 +50,18 @@ pub(super) fn carried<S: Lagrangian<T>, C: StepControl<S, T>, K, T: Real>(
     let reason = "the time of the system is transformed, which sets the lengths of its steps";
     StartError::unless_it(!S::TIME_TRANSFORMED || C::ONE_LENGTH, "a step control", reason)?;
     let v = &all[..velocities(system)];
-    let explained = |error| named(system, [&q, &all], t, error);
-    let (control_memory, h) = control(&q, v).map_err(explained)?;
-    let begin = || method(&q, v, h).map_err(explained);
-    let memory = begin()?;
-    let is_kept = S::TIME_TRANSFORMED || S::HAS_DOMAIN || C::REJECTS;
-    let kept = is_kept.then(|| begin().map(|memory| Kept { q: q.clone(), memory }.into())).transpose()?;
-    let time = Time::new(t, h, 0);
-    Ok(Begun { q, memory, kept, control_memory, time, statistics: Statistics::default() })
+    let begin = || {
+        let (control_memory, h) = control(q, v)?;
+        let memory = method(q, v, h)?;
+        let kept = if S::TIME_TRANSFORMED || S::HAS_DOMAIN || C::REJECTS {
+            Some(Kept { q: q.clone(), memory: method(q, v, h)? }.into())
+        } else {
+            None
+        };
+        let (time, statistics) = (Time::new(t, h, 0), Statistics::default());
+        Ok(Begun { q: q.clone(), memory, kept, control_memory, time, statistics })
+    };
+    begin().map_err(|error| named(system, [q, all], t, error))
 }
 
 /// From a state.
@@ -71,5 +75,5 @@ pub(super) fn begun<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: 
     let at = point(system, t, start)?;
     control.admit::<M>()?;
     let lengths = |q: &_, v: &_| control.begin(system, q, v, t);
-    carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin(system, q, v, t, h))
+    carried::<S, C, _, T>(system, &at, t, lengths, |q, v, h| method.begin(system, q, v, t, h))
 }

@@ -52,13 +52,15 @@ pub trait Between<S: System, T: Real> {
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M, T> {
     #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
     fn begin(&mut self, system: &S, t: T, h: T) -> Result<(), StartError> {
-        let Self { method, memory, q, .. } = self;
+        let Self { method, memory, q, points, .. } = self;
         let mut v = q.clone();
         method.velocity(Here { system, q, t }, memory, &mut v).map_err(StartError::Starter)?;
-        if self.points.is_none() {
-            let begin = || method.begin_again(system, q, &v[..velocities(system)], t, h);
-            let point = || begin().map(|memory| Kept { q: q.clone(), memory });
-            self.points = Some([point()?.into(), point()?.into(), point()?.into()]);
+        if points.is_none() {
+            let point = || {
+                let memory = method.begin_again(system, q, &v[..velocities(system)], t, h)?;
+                Ok::<_, StartError>(Kept { q: q.clone(), memory }.into())
+            };
+            *points = Some([point()?, point()?, point()?]);
         }
         self.keep_next();
         self.begin_there();

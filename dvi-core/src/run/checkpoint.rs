@@ -4,8 +4,6 @@ use alloc::vec::Vec;
 
 use crate::error::{CheckpointError, StartError};
 use crate::memory::{Memory, Record};
-use crate::methods::Method;
-use crate::run::Stepper;
 use crate::state::Statistics;
 use crate::state::fingerprint::Fingerprint;
 use crate::system::start::{evaluate, finite, velocities};
@@ -106,15 +104,14 @@ const BEYOND: u64 = u64::MAX / 2;
 
 impl<T: Real> Checkpoint<T> {
     /// Of a run that has saved what it carries.
-    pub(crate) fn of<S: Lagrangian<T>, M: Method<S, T>>(
-        system: &S,
-        stepper: &Stepper<S, M, T>,
+    pub(crate) fn of(
+        [q, v]: [&[T]; 2],
+        [time, step_size]: [T; 2],
+        statistics: Statistics,
         record: Record<T>,
     ) -> Self {
-        let v = stepper.known_velocity(system)[..velocities(system)].to_vec();
-        let v = if v.iter().all(|v| v.is_finite()) { v } else { Vec::new() };
-        let (q, statistics) = (stepper.q.to_vec(), stepper.statistics);
-        let (time, step_size) = (stepper.clock().time(), stepper.time.h);
+        let v = if v.iter().all(|v| v.is_finite()) { v } else { &[] };
+        let [q, v] = [q.to_vec(), v.to_vec()];
         Self(Sealed { q, v, time, step_size, statistics, record, checksum: 0 }.with_checksum())
     }
 

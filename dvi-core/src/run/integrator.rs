@@ -94,7 +94,7 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
         let begin = |q0: &_, _: &_, h| method.begin_between(held, [q0, &q1], t, h);
         let length = OneLength(h);
         let begun =
-            carried::<_, OneLength<T>, _, _>(held, at, t, |q, v| length.begin(held, q, v, t), begin)?;
+            carried::<_, OneLength<T>, _, _>(held, &at, t, |q, v| length.begin(held, q, v, t), begin)?;
         let method = <H::System as DegenerateLagrangian<T>>::Suited::<Sigma<T>>::same(method);
         Ok(Self::of(system, method, length, begun))
     }

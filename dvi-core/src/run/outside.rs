@@ -18,48 +18,53 @@ const PARTS: [f64; 8] = [0.0, 0.125, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0];
 /// Of the step, over which ∂α/∂t is a difference quotient.
 const SHORT: f64 = 1.0 / 1024.0;
 
+/// A failure by its name, of so many coordinates, and whether a number that is none can have led to it.
+fn named(failure: StepFailure, dimension: usize) -> (StepFailure, bool) {
+    let failure = match failure {
+        // A matrix with entries that are no numbers is not singular: a formula has left its domain.
+        StepFailure::Singular { column, pivot, .. } if pivot.is_nan() && column < dimension => {
+            StepFailure::NotFinite { coordinate: column, value: pivot }
+        }
+        other => other,
+    };
+    let is_suspect = match failure {
+        StepFailure::NotFinite { .. }
+        | StepFailure::NotConverged { .. }
+        | StepFailure::Singular { .. }
+        | StepFailure::RedundantConstraint { .. }
+        | StepFailure::Turned { .. }
+        | StepFailure::Branch
+        | StepFailure::OffConstraint { .. }
+        | StepFailure::UndefinedConstraint { .. }
+        | StepFailure::Frequency { .. }
+        | StepFailure::StepLength { .. }
+        | StepFailure::LeftDomain
+        | StepFailure::Gap { .. }
+        | StepFailure::Density { .. } => true,
+        StepFailure::TimeRate { rate } => rate.is_nan(),
+        StepFailure::Tolerance { error, .. } => error.is_nan(),
+        StepFailure::EnergyStep { defect, .. } => defect.is_nan(),
+        StepFailure::Energy { now, .. } => now.is_nan(),
+        StepFailure::Orientation { after, .. } => after.is_nan(),
+        StepFailure::Resonance { .. }
+        | StepFailure::Pattern { .. }
+        | StepFailure::ParasiticMode { .. }
+        | StepFailure::Accumulation { .. }
+        | StepFailure::Contact { .. }
+        | StepFailure::HalfTurn { .. }
+        | StepFailure::Unreachable { .. }
+        | StepFailure::UndefinedEvent { .. }
+        | StepFailure::Hops { .. }
+        | StepFailure::Seam { .. }
+        | StepFailure::Outside(_) => false,
+    };
+    (failure, is_suspect)
+}
+
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Why the step from time `t` to `t + h` has failed.
     pub(super) fn explained(&self, system: &S, failure: StepFailure, t: T, h: T) -> StepFailure {
-        let failure = match failure {
-            // A matrix with entries that are no numbers is not singular: a formula has left its domain.
-            StepFailure::Singular { column, pivot, .. } if pivot.is_nan() && column < self.q.len() => {
-                StepFailure::NotFinite { coordinate: column, value: pivot }
-            }
-            other => other,
-        };
-        // What a number that is none can lead to.
-        let is_suspect = match failure {
-            StepFailure::NotFinite { .. }
-            | StepFailure::NotConverged { .. }
-            | StepFailure::Singular { .. }
-            | StepFailure::RedundantConstraint { .. }
-            | StepFailure::Turned { .. }
-            | StepFailure::Branch
-            | StepFailure::OffConstraint { .. }
-            | StepFailure::UndefinedConstraint { .. }
-            | StepFailure::Frequency { .. }
-            | StepFailure::StepLength { .. }
-            | StepFailure::LeftDomain
-            | StepFailure::Gap { .. }
-            | StepFailure::Density { .. } => true,
-            StepFailure::TimeRate { rate } => rate.is_nan(),
-            StepFailure::Tolerance { error, .. } => error.is_nan(),
-            StepFailure::EnergyStep { defect, .. } => defect.is_nan(),
-            StepFailure::Energy { now, .. } => now.is_nan(),
-            StepFailure::Orientation { after, .. } => after.is_nan(),
-            StepFailure::Resonance { .. }
-            | StepFailure::Pattern { .. }
-            | StepFailure::ParasiticMode { .. }
-            | StepFailure::Accumulation { .. }
-            | StepFailure::Contact { .. }
-            | StepFailure::HalfTurn { .. }
-            | StepFailure::Unreachable { .. }
-            | StepFailure::UndefinedEvent { .. }
-            | StepFailure::Hops { .. }
-            | StepFailure::Seam { .. }
-            | StepFailure::Outside(_) => false,
-        };
+        let (failure, is_suspect) = named(failure, self.q.len());
         if !S::HAS_SCALAR_FIELDS || !is_suspect {
             return failure;
         }

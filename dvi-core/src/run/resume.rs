@@ -44,7 +44,7 @@ pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T
     control.admit::<M>()?;
     let lengths = |q: &_, v: &_| Ok((control.begin_again(system, q, v, t)?, h));
     let mut begun =
-        carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;
+        carried::<S, C, _, T>(system, &at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;
     checkpoint.load(&mut begun)?;
     let time = &mut begun.time;
     let is_length = C::ONE_LENGTH || (time.h == h && h != T::lift(0.0));

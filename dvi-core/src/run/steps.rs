@@ -14,6 +14,8 @@ use crate::methods::{Clock, Method};
 use crate::shown::shown;
 use crate::state::Statistics;
 use crate::system::StateOf;
+#[cfg(feature = "alloc")]
+use crate::system::start::velocities;
 use crate::{Held, Lagrangian, Real, Vector};
 
 impl<H, M, T: Real, C> Run for Integrator<H, M, T, C>
@@ -63,7 +65,8 @@ where
         self.stepper.memory.save(&mut record);
         self.control_memory.save(&mut record);
         self.stepper.time.save(&mut record);
-        Checkpoint::of(self.system(), &self.stepper, record)
+        let v = &self.v()[..velocities(self.system())];
+        Checkpoint::of([self.q(), v], [self.time(), self.step_size()], self.statistics(), record)
     }
 
     /// Of steps of one length t₀ + steps · h, of others their sum, compensated: rounding errors do not add
