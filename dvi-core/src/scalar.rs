@@ -226,6 +226,11 @@ pub(crate) fn carries_derivatives<T: Real>() -> bool {
     size_of::<T>() > if is_single::<T>() { size_of::<f32>() } else { size_of::<f64>() }
 }
 
+/// Whether the compiler sees that it does not: it is as large as its alignment, and not larger than `f64`.
+pub(crate) const fn is_plain<T>() -> bool {
+    size_of::<T>() == align_of::<T>() && size_of::<T>() <= size_of::<f64>()
+}
+
 /// The smallest number that has all digits: those below are multiples of one number.
 pub(crate) fn smallest_normal<T: Real>() -> T {
     T::lift(if is_single::<T>() { f64::from(f32::MIN_POSITIVE) } else { f64::MIN_POSITIVE })

@@ -11,7 +11,7 @@ mod stopping;
 use crate::Real;
 use crate::error::StepFailure;
 use crate::memory::lasting;
-use crate::scalar::carries_derivatives;
+use crate::scalar::{carries_derivatives, is_plain};
 use crate::space::linear::Storing;
 use crate::state::Statistics;
 
@@ -127,11 +127,9 @@ pub(crate) fn repeat<T: Real>(
             match convergence.judge(correction) {
                 Verdict::Continue if convergence.course().due == Due::Nothing => {}
                 Verdict::Continue => break,
-                // Comparisons have not seen the derivatives that numbers may carry. For plain numbers, which
-                // are no larger than their alignment, this is not compiled.
-                Verdict::Accept
-                    if const { size_of::<T>() > align_of::<T>() } && carries_derivatives::<T>() =>
-                {
+                // Comparisons have not seen the derivatives that numbers may carry. For plain ones this is not
+                // compiled.
+                Verdict::Accept if const { !is_plain::<T>() } && carries_derivatives::<T>() => {
                     let Course { due, more, .. } = convergence.course();
                     let more = *more;
                     let mut improve = |_| iteration.improve(due, statistics).map(drop);

@@ -164,18 +164,18 @@ pub(crate) fn entries<const NODES: usize, T: Real, M: NodeSum<NODES, T>>(
                 }
             }
         };
-        let mut qq: &mut dyn FnMut(usize, usize, T) = &mut |i, j, entry| add(i, j, entry, |w| w.qq);
-        let mut qv: &mut dyn FnMut(usize, usize, T) = &mut |i, j, entry| {
-            add(i, j, entry, |w| w.qv);
-            if M::MIXED_ARE_TRANSPOSED {
-                add(j, i, entry, |w| w.vq);
-            }
-        };
-        let mut vv: &mut dyn FnMut(usize, usize, T) = &mut |i, j, entry| add(i, j, entry, |w| w.vv);
-        matrix.second_derivatives(&mut qq, &mut qv, &mut vv);
+        matrix.second_derivatives(
+            &mut |i, j, entry| add(i, j, entry, |w| w.qq),
+            &mut |i, j, entry| {
+                add(i, j, entry, |w| w.qv);
+                if M::MIXED_ARE_TRANSPOSED {
+                    add(j, i, entry, |w| w.vq);
+                }
+            },
+            &mut |i, j, entry| add(i, j, entry, |w| w.vv),
+        );
         if !M::MIXED_ARE_TRANSPOSED {
-            let mut vq: &mut dyn FnMut(usize, usize, T) = &mut |i, j, entry| add(i, j, entry, |w| w.vq);
-            matrix.momentum_by_position(&mut vq);
+            matrix.momentum_by_position(&mut |i, j, entry| add(i, j, entry, |w| w.vq));
         }
     }
 }
