@@ -136,7 +136,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         let legendre = Legendre { system, q, p: &memory.p, t };
         let tangents = &mut memory.tangents;
         legendre.linearize(v, tangents, &mut Statistics::default());
-        tangents.matrix.factor().map_err(StartError::Starter)?;
+        tangents.matrix.factor_in_any_units().map_err(StartError::Starter)?;
         memory.is_positive = tangents.matrix.is_positive();
         let mass = if S::CONSTANT_MASS { Some(mass_at(system, [q, v], t)) } else { None };
         let is_definite = |mass| !has_spheres::<S, T>() || is_positive(system, mass);

@@ -178,3 +178,32 @@ fn a_number_that_rests_at_zero_beside_a_rotation_is_no_task_of_its_own() {
     assert_eq!(run.state().x[0], 0.0);
     assert!((run.energy() - begin).abs() < 1e-2, "{:e}", run.energy() - begin);
 }
+
+/// A body that turns, and a weight that slides on it to the place u x.
+#[lagrangian(
+    coordinates(x, R: SO3),
+    lagrangian = (omega(R)[0].powi(2) + 2.0 * omega(R)[1].powi(2) + 3.0 * omega(R)[2].powi(2)) / 2.0
+        + u * dot(x) * (u * dot(x) / 2.0 + coupling * omega(R)[0]) - u * x * (u * x + R[2][2]),
+)]
+struct Slider {
+    u: f64,
+    coupling: f64,
+}
+
+#[test]
+fn the_unit_of_a_number_beside_a_rotation_does_not_matter() {
+    let end = |u: f64, coupling: f64| {
+        let R = rotations::exp([0.1, 0.2, 0.3]);
+        let start = SliderState { x: 0.25 / u, R, dot_x: 0.1 / u, omega_R: [0.1, 0.5, 0.3] };
+        let slider = Slider { u, coupling };
+        let mut run = Integrator::new(&slider, Geodesic::midpoint(), 0.05, start).expect("begins");
+        run.take_steps(50).expect("short steps");
+        let state = run.state();
+        (u * state.x, state.R)
+    };
+    for coupling in [0.0, 0.3] {
+        for exponent in [80, 20, -20, -60, -80] {
+            assert_eq!(end(2_f64.powi(exponent), coupling), end(1.0, coupling), "2^{exponent}");
+        }
+    }
+}

@@ -17,6 +17,7 @@ use crate::scalar::norm;
 use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::SquareMatrix;
 use crate::space::inertia::{Inertia, inertia};
+use crate::space::linear::{power_below, scale, set_scales};
 use crate::state::Statistics;
 use crate::system::{Factor, ManifoldSystem};
 use crate::{ManifoldLagrangian, Real, Scalar, Space};
@@ -30,8 +31,9 @@ pub(super) struct Tangents<S: ManifoldSystem, T: Real> {
     pub(super) node: Node<S, T>,
     pub(super) residual: Tangent<S, T>,
     pub(super) matrix: <S::Tangent as Space>::Square<T>,
-    /// In which an iteration judges tangent vectors.
+    /// In which an iteration judges tangent vectors, and what rows are multiplied by, which have units too.
     weights: Tangent<S, T>,
+    scales: Tangent<S, T>,
 }
 
 /// Equations for a displacement or a velocity, with a place for each coordinate.
@@ -46,13 +48,20 @@ pub(super) trait Equations<S: ManifoldSystem, T: Real> {
     fn corrected(&self, block: Block, unknown: Vector3<T>, correction: [T; 2]) -> Vector3<T>;
 }
 
+/// Whether coordinates may have units of different size: those of one name have one.
+#[inline]
+fn has_units<S: ManifoldLagrangian<T>, T: Real>() -> bool {
+    S::REPORT.coordinates.len() > 1
+}
+
 impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
     /// With room for the second derivatives of L. Where they stand does not depend on the point, but the
     /// formulas are defined at (`q`, `v`, `t`).
     pub(super) fn new(system: &S, at: [&[T]; 2], t: T) -> Self {
         let node = Node::new(system);
         let matrix = system.tangent().square(|visit| visit_coupled(system, &node.slots, at, t, visit));
-        Self { node, residual: system.tangent().vector(), matrix, weights: system.tangent().vector() }
+        let [residual, weights, scales] = system.tangent().vectors();
+        Self { node, residual, matrix, weights, scales }
     }
 
     /// Improves the unknown by Newton's method.
@@ -74,10 +83,20 @@ impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
                 for block in blocks(system) {
                     self.weights[block.slots()].fill(sizes::weight_of(equations.size(block, unknown)));
                 }
+                if has_units::<S, T>() {
+                    set_scales(&mut self.scales, &self.weights);
+                    self.scales.iter_mut().for_each(|scale| *scale = power_below(*scale));
+                }
             }
             equations.linearize(unknown, self, statistics);
             statistics.factorisations += 1;
-            self.matrix.factor()?;
+            if has_units::<S, T>() {
+                self.matrix.scale_rows(&self.scales);
+                scale(&mut self.residual, &self.scales);
+                self.matrix.factor_in_any_units()?;
+            } else {
+                self.matrix.factor()?;
+            }
             self.matrix.solve(&mut self.residual);
             for block in blocks(system) {
                 let change = &self.residual[block.slots()];
