@@ -123,11 +123,12 @@ impl Lowering<'_> {
         }
         let (vector, factor) = match (left, right) {
             (Value::Number(factor), other) | (other, Value::Number(factor)) => (other, factor),
-            (Value::Vector(_), Value::Vector(_)) => {
+            (Value::Vector(left), Value::Vector(_)) => {
                 let (a, b) = (name_of(&syntax.left), text(&syntax.right));
+                let cross = format!(", and `{a}.cross({b})` where a vector is");
+                let cross = if left.len() == 3 { &cross[..] } else { "" };
                 let message = format!(
-                    "a product of two vectors is written `{a}.dot({b})` where a number is meant, and `{a}.cross({b})` \
-                     where a vector is"
+                    "a product of two vectors is written `{a}.dot({b})` where a number is meant{cross}"
                 );
                 return self.refuse(syntax, message);
             }

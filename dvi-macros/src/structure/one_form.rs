@@ -125,8 +125,8 @@ impl OneForm {
         if let (Some(dimension), Some(last)) = (odd, numbers.last()) {
             let beside = if model.has_spinors() { " beside the unit vectors" } else { "" };
             let message = format!(
-                "there are {dimension} coordinates{beside}, but Ω = -dα is nondegenerate in even dimension only; \
-                 add the conjugate coordinate or remove one"
+                "Ω = -dα is nondegenerate in even dimension only, and the number of coordinates{beside} is \
+                 {dimension}; add the conjugate coordinate or remove one"
             );
             errors.push(&model.blocks[*last].name, message);
             return;
