@@ -127,8 +127,8 @@ pub(crate) fn repeat<T: Real>(
             match convergence.judge(correction) {
                 Verdict::Continue if convergence.course().due == Due::Nothing => {}
                 Verdict::Continue => break,
-                // Comparisons have not seen the derivatives that numbers may carry. For plain ones this is not
-                // compiled.
+                // Comparisons have not seen the derivatives that numbers may carry; for plain numbers this
+                // is not compiled.
                 Verdict::Accept if const { !is_plain::<T>() } && carries_derivatives::<T>() => {
                     let Course { due, more, .. } = convergence.course();
                     let more = *more;

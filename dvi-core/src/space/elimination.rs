@@ -160,8 +160,8 @@ fn pivot_row<T: Real>(
     if is_pivot(pivot, rounding * above) { Ok(row) } else { Err(singular(pivot, k)) }
 }
 
-/// Overwrites `x` with the solution of A y = x, A as left behind by [`factor`]. It sees the storage, and with
-/// it a number of equations that is fixed.
+/// Overwrites `x` with the solution of A y = x, A as left behind by [`factor`]. It sees the storage, and
+/// with it a number of equations that is fixed.
 #[inline]
 pub(crate) fn solve<T: Real>(
     matrix: &impl Deref<Target = [T]>,
