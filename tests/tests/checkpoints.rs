@@ -215,6 +215,7 @@ fn checksum(written: &serde_json::Value) -> Option<u64> {
         take(list.len() as u64);
         list.iter().try_for_each(|number| number.as_f64().map(|number| take(number.to_bits())))?;
     }
+    take(written["velocities"].as_u64()?);
     let statistics = ["steps", "rejected", "iterations", "gradients", "linearizations", "factorisations"];
     let counts = statistics.iter().map(|name| &written["statistics"][name]).chain(list("/record/counts")?);
     counts.map(serde_json::Value::as_u64).try_for_each(|count| count.map(&mut take))?;
@@ -257,6 +258,7 @@ fn damaged(
             attempt(&format!("/record/numbers/{place}"), number.into())?;
         }
     }
+    attempt("/velocities", u64::MAX.into())?;
     for name in ["steps", "iterations", "gradients", "linearizations", "factorisations"] {
         attempt(&format!("/statistics/{name}"), u64::MAX.into())?;
     }
@@ -334,5 +336,22 @@ fn a_run_on_a_straight_path_can_be_written() -> Outcome {
             written_and_read(&run.checkpoint())?;
         }
     }
+    Ok(())
+}
+
+/// Two numbers, one of which is the momentum of the other.
+#[degenerate_lagrangian(
+    coordinates(q, p),
+    one_form = p * d(q),
+    hamiltonian = (p * p + q * q) / 2.0,
+)]
+struct Wave;
+
+#[test]
+fn a_system_with_velocities_does_not_go_on_from_a_checkpoint_without_any() -> Outcome {
+    let run = Integrator::new(&Wave, RungeKutta::classical(), 0.1, WaveState { q: 0.5, p: 1.0 })?;
+    let error = Integrator::resume(&KEPLER, RungeKutta::classical(), &run.checkpoint()).err();
+    let expected = CheckpointError::Size { what: "velocities", expected: 2, found: 0 };
+    assert_eq!(error, Some(StartError::Checkpoint(expected)));
     Ok(())
 }

@@ -63,6 +63,8 @@ pub struct Checkpoint<T = f64>(Sealed<T>);
 struct Sealed<T> {
     q: Vec<T>,
     v: Vec<T>,
+    /// How many velocities a state of the system has, of which `v` has all or none.
+    velocities: u64,
     time: T,
     step_size: T,
     statistics: Statistics,
@@ -78,13 +80,14 @@ impl<T: Real> Sealed<T> {
 
     /// The checksum that belongs to the rest: 53 bits, as many as the numbers of any format have.
     fn fingerprint(&self) -> u64 {
-        let Self { q, v, time, step_size, statistics, record, checksum: _ } = self;
+        let Self { q, v, velocities, time, step_size, statistics, record, checksum: _ } = self;
         let (numbers, counts) = record.parts();
         let mut fingerprint = Fingerprint::new();
         for list in [&q[..], &v[..], &[*time, *step_size], numbers] {
             fingerprint.word(list.len() as u64);
             list.iter().for_each(|&number| fingerprint.real(number));
         }
+        fingerprint.word(*velocities);
         statistics.counts().iter().chain(counts).for_each(|&count| fingerprint.word(count));
         fingerprint.value() >> 11
     }
@@ -110,9 +113,11 @@ impl<T: Real> Checkpoint<T> {
         statistics: Statistics,
         record: Record<T>,
     ) -> Self {
+        let velocities = v.len() as u64;
         let v = if v.iter().all(|v| v.is_finite()) { v } else { &[] };
         let [q, v] = [q.to_vec(), v.to_vec()];
-        Self(Sealed { q, v, time, step_size, statistics, record, checksum: 0 }.with_checksum())
+        let sealed = Sealed { q, v, velocities, time, step_size, statistics, record, checksum: 0 };
+        Self(sealed.with_checksum())
     }
 
     /// The coordinates, flat, in the order of declaration.
@@ -156,19 +161,20 @@ impl<T: Real> Checkpoint<T> {
 
     /// The coordinates and velocities, for `system`, if all numbers and counts are those of a run.
     pub(crate) fn point<S: Lagrangian<T>>(&self, system: &S) -> Result<[Vector<S, T>; 2], StartError> {
-        let found = self.0.v.len();
+        let Sealed { v: known, velocities: found, .. } = &self.0;
         let of_q = ("coordinates", system.space().dimension(), self.0.q.len());
-        let of_v = ("velocities", if found == 0 { 0 } else { velocities(system) }, found);
+        let of_v = ("velocities", velocities(system), *found as usize);
         if let Some((what, expected, found)) = [of_q, of_v].into_iter().find(|(_, a, b)| a != b) {
             return Err(CheckpointError::Size { what, expected, found }.into());
         }
-        finite(system, &self.0.q, &self.0.v)?;
-        if self.0.statistics.counts().iter().any(|&count| count > BEYOND) {
-            return Err(CheckpointError::Damaged.into());
-        }
         let [mut q, mut v]: [Vector<S, T>; 2] = system.space().vectors();
         q.copy_from_slice(&self.0.q);
-        v[..found].copy_from_slice(&self.0.v);
+        let is_damaged = self.0.statistics.counts().iter().any(|&count| count > BEYOND);
+        if is_damaged || !(known.is_empty() || known.len() == velocities(system)) {
+            return Err(CheckpointError::Damaged.into());
+        }
+        v[..known.len()].copy_from_slice(known);
+        finite(system, &q, &v)?;
         if !self.goes_on() {
             // As a force that is infinite there.
             evaluate(system, &q, &v[..velocities(system)], self.0.time)?;
