@@ -1,7 +1,5 @@
 //! Small things that are done with measured numbers.
 
-use std::sync::OnceLock;
-
 use anyhow::{Context as _, Result};
 use dvi_core::diagnostics::convergence_order;
 use rayon::prelude::*;
@@ -68,39 +66,17 @@ pub fn order(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
 
 /// What `make` makes of each of the cases, up to the first failure.
 pub fn each<T, U, const N: usize>(cases: [T; N], make: impl FnMut(T) -> Result<U>) -> Result<[U; N]> {
-    all(cases, make)?.try_into().ok().context("not as many results as cases")
+    let made = cases.into_iter().map(make).collect::<Result<Vec<_>>>()?;
+    made.try_into().ok().context("not as many results as cases")
 }
 
-/// The same of any number of cases.
-pub fn all<T, U>(
-    cases: impl IntoIterator<Item = T>,
-    mut make: impl FnMut(T) -> Result<U>,
-) -> Result<Vec<U>> {
-    let mut made = Vec::new();
-    for case in cases {
-        made.push(make(case)?);
-    }
-    Ok(made)
-}
-
-/// As by [`each`], side by side on the threads that there are.
-pub fn side_by_side<T: Copy + Sync, U: Send + Sync, const N: usize>(
+/// The same, side by side on the threads that there are.
+pub fn side_by_side<T: Send, U: Send, const N: usize>(
     cases: [T; N],
-    make: impl Fn(T) -> Result<U> + Sync,
+    make: impl Fn(T) -> Result<U> + Sync + Send,
 ) -> Result<[U; N]> {
-    all_side_by_side(&cases, make)?.try_into().ok().context("not as many results as cases")
-}
-
-/// As by [`all`].
-pub fn all_side_by_side<T: Copy + Sync, U: Send + Sync>(
-    cases: &[T],
-    make: impl Fn(T) -> Result<U> + Sync,
-) -> Result<Vec<U>> {
-    let made = Vec::from_iter(cases.iter().map(|_| OnceLock::new()));
-    // Threads are given numbers: what gives them is compiled once.
-    let one: &(dyn Fn(usize) + Sync) = &|k| drop(made[k].set(make(cases[k])));
-    (0..cases.len()).into_par_iter().with_max_len(1).for_each(one);
-    all(made, |one| one.into_inner().context("a case has no result")?)
+    let made = cases.into_par_iter().with_max_len(1).map(make).collect::<Result<Vec<_>>>()?;
+    made.try_into().ok().context("not as many results as cases")
 }
 
 /// What `make` makes of each of the cases, and the names and errors of those in which it fails.
@@ -124,7 +100,7 @@ pub fn order_of<T>(
     cases: impl IntoIterator<Item = T>,
     error: impl FnMut(T) -> Result<(f64, f64)>,
 ) -> Result<Option<f64>> {
-    Ok(order(all(cases, error)?))
+    Ok(order(cases.into_iter().map(error).collect::<Result<Vec<_>>>()?))
 }
 
 /// A circle as a closed line.

@@ -56,14 +56,9 @@ impl Table {
         let mut table = csv::Writer::from_writer(Vec::new());
         table.write_record(columns.split(','))?;
         for (texts, numbers) in rows {
-            let mut row = Vec::new();
-            for text in texts {
-                row.push(text.as_ref().replace('*', ""));
-            }
-            for value in numbers {
-                row.push(value.into().map_or_else(String::new, number));
-            }
-            table.write_record(row).context("a row cannot be added to a table")?;
+            let texts = texts.into_iter().map(|text| text.as_ref().replace('*', ""));
+            let numbers = numbers.into_iter().map(|value| value.into().map(number).unwrap_or_default());
+            table.write_record(texts.chain(numbers)).context("a row cannot be added to a table")?;
         }
         Ok(Self(table))
     }

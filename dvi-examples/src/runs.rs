@@ -91,7 +91,7 @@ impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Convergence<'a, S, E> {
             run.take_steps(steps)?;
             Ok((self.end / steps as f64, (self.error)(run.q())))
         };
-        all(&self.counts, error)
+        self.counts.iter().map(error).collect()
     }
 
     pub fn order(&self, method: impl Method<S, f64> + Clone) -> Result<Option<f64>> {

@@ -122,11 +122,9 @@ where
     N: IntoIterator<Item = C> + Clone,
     P: IntoIterator<Item: IntoIterator<Item = C>>,
 {
-    let mut rows = Vec::new();
-    for (names, numbers, points) in curves {
-        for point in points {
-            rows.push((names.clone(), numbers.clone().into_iter().chain(point)));
-        }
-    }
+    let rows = curves.into_iter().flat_map(|(names, numbers, points)| {
+        let rows = points.into_iter();
+        rows.map(move |point| (names.clone(), numbers.clone().into_iter().chain(point).map(Into::into)))
+    });
     Table::of(columns, rows)
 }

@@ -9,6 +9,7 @@ pub use dvi_core::field::{ScalarField, Spline};
 pub use dvi_core::methods::VariableStep;
 pub use dvi_core::prelude::*;
 pub use dvi_core::{ProperlyDegenerate, Separable, Space as _, rotations};
+pub use rayon::prelude::*;
 
 pub use crate::alternating::AlternatingComponent;
 pub use crate::claim::{Bound, Check, Claim, beyond, claims, says};

@@ -36,7 +36,7 @@ fn orbit<S: RegularLagrangian>(system: &S, [x, v]: [f64; 2], end: usize) -> Resu
 /// A regular polygon about (0, 1) at t = 0, 1, …, of whose corners `orbit` returns all steps.
 pub fn carried(corners: usize, orbit: impl Fn([f64; 2]) -> Result<Points>) -> Result<Vec<Points>> {
     let angles = (0..corners).map(|j| (TAU * j as f64 / corners as f64).sin_cos());
-    let orbits = all(angles, |(sin, cos)| orbit([0.5 * cos, 1.0 + 0.5 * sin]))?;
+    let orbits = angles.map(|(sin, cos)| orbit([0.5 * cos, 1.0 + 0.5 * sin])).collect::<Result<Vec<_>>>()?;
     let times = (0..orbits[0].len()).step_by(STEPS);
     Ok(times.map(|step| orbits.iter().map(|orbit| orbit[step]).collect()).collect())
 }

@@ -78,8 +78,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 /// One for each place on the x axis at which it begins, with its velocity there.
-fn orbits(of: impl Fn(EllipseBilliardState) -> Result<Orbit> + Sync) -> Result<Vec<Orbit>> {
-    all_side_by_side(&Vec::from_iter(0..ORBITS), |number| of(start(number)))
+fn orbits(of: impl Fn(EllipseBilliardState) -> Result<Orbit> + Sync + Send) -> Result<Vec<Orbit>> {
+    (0..ORBITS).into_par_iter().map(|number| of(start(number))).collect()
 }
 
 fn start(number: u32) -> EllipseBilliardState {

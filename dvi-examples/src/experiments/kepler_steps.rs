@@ -18,8 +18,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let cases = [Fixed, Controlled].into_iter().flat_map(|steps| orbits.iter().map(move |&e| (steps, e)));
     let of_each = |(steps, e)| finenesses(steps, e).into_iter().take(count).map(move |of| (steps, e, of));
     let cases: Vec<_> = cases.flat_map(of_each).collect();
-    let compared = all_side_by_side(&cases, |(steps, e, fine)| equal_errors(job, steps, e, fine))?;
-    let all: Vec<Comparison> = compared.into_iter().flatten().collect();
+    let compared = cases.into_par_iter().map(|(steps, e, fine)| equal_errors(job, steps, e, fine));
+    let all: Vec<Comparison> = compared.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
     let rows = all.iter().map(|c| {
         let how = if c.steps == Fixed { "fixed" } else { "controlled" };
         ([how, &c.e.to_string(), c.reference].map(str::to_owned), [c.energy, c.fitted, c.linear, c.ratio()])

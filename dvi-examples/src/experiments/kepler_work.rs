@@ -86,9 +86,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         let told = |knob: &f64| format!("{}, e = {e}, at {knob}", name.replace('*', ""));
         let (courses, failures) =
             attempts(knobs, |&knob| course(contender, (job, Orbit { e }, periods), knob), told);
-        Ok(Curve { contender, e, courses, failures })
+        Curve { contender, e, courses, failures }
     };
-    let curves = all_side_by_side(&pairs, curve)?;
+    let curves: Vec<Curve> = pairs.into_par_iter().map(curve).collect();
     let orbit = Orbit { e: 0.95 };
     let leapfrog = logarithmic_hamiltonian(job, orbit, 25, long)?;
     let [regular, shorter] = each([8, 32], |steps| levi_civita(job, orbit, steps, long))?;

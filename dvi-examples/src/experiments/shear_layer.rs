@@ -36,7 +36,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(SHOWN[2]);
     let rolled = RollUp::new(job, job.choose(40, 5))?;
     let rows: &[usize] = job.choose(&[10, 20, 40, 80], &[5, 10]);
-    let operations = all(rows, |&rows| operations(rows))?;
+    let operations = rows.iter().map(|&rows| operations(rows)).collect::<Result<Vec<_>>>()?;
     let kept = ["ΔH/H", "ΔΣΓz", "ΔΣΓ|z|²"].into_iter().zip(&rolled.kept);
     let kept = kept.flat_map(|(name, kept)| kept.magnitude().into_iter().map(move |row| ([name], row)));
     let counts = operations.iter().flat_map(|&(blobs, pairs, products)| {

@@ -23,10 +23,10 @@ fn formula(sigma: f64) -> f64 {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
-    let measured = all_side_by_side(&SIGMAS, |s| Ok([s, limit(s, steps)?]))?;
+    let measured = SIGMAS.par_iter().map(|&s| Ok([s, limit(s, steps)?])).collect::<Result<Points>>()?;
     let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(0.5, 1e3, steps))?;
     let damped = SIGMAS.into_iter().chain([0.5]).flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
-    let damped = all(damped, |(sigma, lambda)| Damped::new(sigma, lambda))?;
+    let damped = damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<Vec<_>>>()?;
     let right = Damped::new(0.5, [0.01, 1.0])?.factor;
     let limits = measured.iter().map(|&[sigma, at]| (["limit"], [sigma, 0.0, at, at, formula(sigma)]));
     let growths = damped.iter().map(|&Damped { sigma, lambda: [x, y], factor, .. }| {
