@@ -98,12 +98,7 @@ fn coordinate<S: System>(system: &S, place: usize) -> Option<Name> {
     {
         return Some(vector);
     }
-    for (name, at) in entries(system) {
-        if !name.is_velocity && at == place {
-            return Some(name);
-        }
-    }
-    None
+    entries(system).find(|(name, at)| !name.is_velocity && *at == place).map(|(name, _)| name)
 }
 
 /// Whether energy and derivatives of L are finite at the start of a run.
@@ -216,10 +211,7 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
 
 /// Checks that the entries of a state are finite.
 pub(crate) fn finite<S: System, T: Real>(system: &S, q: &[T], v: &[T]) -> Result<(), StartError> {
-    let lowered = spinors::lowered(system, q);
-    let q = lowered.as_deref().unwrap_or(q);
-    for (entry, place) in entries(system) {
-        let value = if entry.is_velocity { v[place] } else { q[place] };
+    for (entry, value) in system.names().zip(system.values_of(q, v)) {
         if !value.is_finite() {
             return Err(StartError::NotFinite { entry, value: reported(value) });
         }

@@ -134,8 +134,8 @@ impl Lowering<'_> {
             let message = match role {
                 Role::Force => format!(
                     "no force acts on the unit vector `{name}`: forces are on numbers, such as its height \
-                     z and its longitude phi, with `-kappa * z * d(phi)` for the area; one on `q` alone is \
-                     `force(q) = …`"
+                     z and its longitude phi, with `-kappa * z * d(phi)` for the area; a force on one \
+                     number is `force(x) = …`"
                 ),
                 _ => format!(
                     "the one-form along a unit vector is an area: write the one-form as a sum of terms, with `{AREA}({})` in it",
