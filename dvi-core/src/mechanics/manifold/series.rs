@@ -19,14 +19,15 @@ pub(crate) struct Series<T> {
     u: Vector3<T>,
     a: T,
     b: T,
-    map: Map,
+    map: Map<T>,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Map {
+enum Map<T> {
     Exponential,
     Mean,
-    Inverse,
+    /// With the derivative of b by θ², which comes with b.
+    Inverse(T),
 }
 
 /// Terms of the power series in θ²: the first that is left out is below 10⁻¹⁷ of the sum for θ² ≤ [`NEAR`].
@@ -143,24 +144,24 @@ impl<T: Real> Series<T> {
     /// J(u)⁻¹.
     #[inline]
     pub(crate) fn mean_inverse(u: Vector3<T>) -> Self {
-        let [b, _] = cotangent(u.dot(&u));
-        Self { u, a: T::lift(-0.5), b, map: Map::Inverse }
+        let [b, slope] = cotangent(u.dot(&u));
+        Self { u, a: T::lift(-0.5), b, map: Map::Inverse(slope) }
     }
 
-    /// The derivatives of a and b by θ². Those of λₙ are (n λₙ₊₂ − λₙ₊₁)/2.
+    /// The derivatives of a and b by θ². Those of λₙ are (n λₙ₊₂ − λₙ₊₁)/2, and b is λₙ₊₁ where a is λₙ.
     #[inline]
     fn slopes(&self) -> [T; 2] {
         let (square, half) = (self.u.dot(&self.u), T::lift(0.5));
         match self.map {
             Map::Exponential => {
-                let [second, third, fourth] = lambda::<2, 3, T>(square);
-                [half * (third - second), half * (T::lift(2.0) * fourth - third)]
+                let [third, fourth] = lambda::<3, 2, T>(square);
+                [half * (third - self.b), half * (T::lift(2.0) * fourth - third)]
             }
             Map::Mean => {
-                let [third, fourth, fifth] = lambda::<3, 3, T>(square);
-                [half * (T::lift(2.0) * fourth - third), half * (T::lift(3.0) * fifth - fourth)]
+                let [fourth, fifth] = lambda::<4, 2, T>(square);
+                [half * (T::lift(2.0) * fourth - self.b), half * (T::lift(3.0) * fifth - fourth)]
             }
-            Map::Inverse => [T::lift(0.0), cotangent(square)[1]],
+            Map::Inverse(slope) => [T::lift(0.0), slope],
         }
     }
 
@@ -174,8 +175,8 @@ impl<T: Real> Series<T> {
     /// The matrix of the map.
     #[inline]
     pub(crate) fn matrix(&self) -> Matrix3<T> {
-        let once = self.u.cross_matrix();
-        Matrix3::identity() + once * self.a + once * once * self.b
+        let &Self { u, a, b, .. } = self;
+        Matrix3::identity() * (T::lift(1.0) - b * u.dot(&u)) + u.cross_matrix() * a + u * b * u.transpose()
     }
 
     /// The derivative of the image of `f` with respect to u.
@@ -185,9 +186,9 @@ impl<T: Real> Series<T> {
         let [a_slope, b_slope] = self.slopes();
         let once = u.cross(f);
         let twice = u.cross(&once);
-        let of_twice = u * f.transpose() + Matrix3::identity() * u.dot(f) - f * u.transpose() * T::lift(2.0);
-        (once * a_slope + twice * b_slope) * (u.transpose() * T::lift(2.0)) - f.cross_matrix() * a
-            + of_twice * b
+        let by_u = (once * a_slope + twice * b_slope - f * b) * T::lift(2.0);
+        by_u * u.transpose() + u * b * f.transpose() + Matrix3::identity() * (u.dot(f) * b)
+            - f.cross_matrix() * a
     }
 }
 

@@ -4,14 +4,15 @@ use nalgebra::Vector3;
 
 use super::covectors::{depart, push, subtract_momentum};
 use super::memory::MassRows;
-use super::node::{Forces, Path};
+use super::node::{Forces, Node, Path};
 use super::tangents::{Equations, Tangents};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{Interval, NodeWork};
+use crate::mechanics::manifold::series::Series;
 use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{Block, blocks, vector};
 use crate::scalar::norm;
-use crate::space::SquareMatrix;
+use crate::space::{RowMatrix, Sink, SquareMatrix};
 use crate::state::Statistics;
 use crate::system::{CoordinateBlock, Factor};
 use crate::{ManifoldLagrangian, Real, Scalar, System};
@@ -44,6 +45,39 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
     #[inline]
     pub(super) fn path<'b>(&'b self, displacement: &'b [T]) -> Path<'b, T> {
         Path { q: self.q, displacement, h: self.interval.h }
+    }
+
+    /// Without unit vectors, −D₁K_d = J(−u)⁻¹ M u/h of rotations, and M Δ/h of numbers. M u/h = J(−u) p0 has
+    /// the same solution, and M/h as its derivative but for that of J.
+    #[inline]
+    fn linearize_drift(&self, mass: &MassRows<S, T>, displacement: &[T], tangents: &mut Tangents<S, T>) {
+        let (system, per_h) = (self.system, T::lift(1.0) / self.interval.h);
+        let Tangents { node: Node { work, slots, .. }, residual, matrix, .. } = tangents;
+        let NodeWork { point, velocity, momentum, .. } = work;
+        for place in blocks(system).flat_map(Block::velocities) {
+            velocity[place] = per_h * displacement[place];
+        }
+        system.conjugate_momentum(point, velocity, self.interval.t, momentum);
+        let entries = matrix.cleared();
+        for block in blocks(system) {
+            for (slot, place) in block.slots().zip(block.places()) {
+                residual[slot] = momentum[place] - self.p[place];
+                mass.row(place, |column, entry| {
+                    if entry != T::lift(0.0) {
+                        let [first, _, number] = slots[column];
+                        entries.add(slot, first + number, per_h * entry);
+                    }
+                });
+            }
+            if block.factor == Factor::Rotation {
+                let (mean, p) = (Series::mean(-vector(displacement, block)), vector(self.p, block));
+                let (turn, change) = (mean.of(&p) - p, mean.derivative(&p));
+                for (row, slot) in block.slots().enumerate() {
+                    residual[slot] -= turn[row];
+                    (0..3).for_each(|column| entries.add(slot, block.slot + column, change[(row, column)]));
+                }
+            }
+        }
     }
 
     /// Sets `p` to the momentum at the end of the displacement.
@@ -95,10 +129,15 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S
         }
     }
 
-    /// The residual is −D₁L_d − p0.
+    /// The residual is −D₁L_d − p0, or that of a [drift](Begin::linearize_drift).
     #[inline]
     fn linearize(&self, displacement: &[T], tangents: &mut Tangents<S, T>, statistics: &mut Statistics) {
         let (system, path) = (self.system, self.path(displacement));
+        if let Some(mass) = self.mass
+            && !has_spheres::<S, T>()
+        {
+            return self.linearize_drift(mass, displacement, tangents);
+        }
         let Tangents { node, residual, matrix, .. } = tangents;
         residual.fill(T::lift(0.0));
         for block in blocks(system) {
@@ -116,9 +155,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S
             }
             return;
         };
-        let once = (!has_spheres::<S, T>()).then(|| [T::lift(0.0), self.interval.h]);
-        let each = has_spheres::<S, T>().then(|| nodes(self.rule, self.interval.h));
-        for [c, weight] in once.into_iter().chain(each.into_iter().flatten()) {
+        for [c, weight] in nodes(self.rule, self.interval.h) {
             node.drift(system, path, self.interval.time(c), c);
             node.add_kinetic(system, mass, weight, entries);
             node.bend(system, path, [c, weight], Forces::Without, entries);

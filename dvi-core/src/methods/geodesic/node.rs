@@ -196,7 +196,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     #[inline]
     pub(super) fn project_force(&self, factor: T, sum: &mut [T]) {
         let rows = self.work.gradient.iter().zip(self.first.point.iter());
-        for (&[slot, count], (&l_q, by_point)) in self.slots.iter().zip(rows) {
+        for (&[slot, count, _], (&l_q, by_point)) in self.slots.iter().zip(rows) {
             for (sum, &entry) in sum[slot..slot + count].iter_mut().zip(by_point) {
                 *sum += factor * (l_q * entry);
             }
@@ -207,7 +207,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     #[inline]
     pub(super) fn project_momentum(&self, system: &S, factor: T, sum: &mut [T]) {
         for place in blocks(system).flat_map(Block::velocities) {
-            let ([slot, count], l_v) = (self.slots[place], self.work.momentum[place]);
+            let ([slot, count, _], l_v) = (self.slots[place], self.work.momentum[place]);
             for (sum, &entry) in sum[slot..slot + count].iter_mut().zip(&self.first.velocity[place]) {
                 *sum += factor * (l_v * entry);
             }

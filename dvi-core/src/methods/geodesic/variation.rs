@@ -159,16 +159,17 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 }
 
-/// The first tangent vector of the block of each coordinate, and how many the block has.
-pub(super) type Slots<S> = Vector<S, [usize; 2]>;
+/// The first tangent vector of the block of each coordinate, how many the block has, and the number of the
+/// coordinate in it. A number is a block of its own.
+pub(super) type Slots<S> = Vector<S, [usize; 3]>;
 
 pub(super) fn slots<S: ManifoldSystem>(system: &S) -> Slots<S> {
-    let mut slots = system.space().array([0; 2]);
+    let mut slots = system.space().array([0; 3]);
     for block in blocks(system) {
         for (number, place) in block.places().enumerate() {
             slots[place] = match block.factor {
-                Factor::Line => [block.slot + number, 1],
-                Factor::Rotation | Factor::Sphere => [block.slot, block.dimension()],
+                Factor::Line => [block.slot + number, 1, 0],
+                Factor::Rotation | Factor::Sphere => [block.slot, block.dimension(), number],
             };
         }
     }
@@ -184,7 +185,7 @@ pub(super) fn visit_coupled<S: ManifoldLagrangian<T>, T: Real>(
     t: T,
     visit: &mut dyn FnMut(usize, usize),
 ) {
-    let mut all = |[first, rows]: [usize; 2], [second, columns]: [usize; 2]| {
+    let mut all = |[first, rows, _]: [usize; 3], [second, columns, _]: [usize; 3]| {
         (0..rows).for_each(|i| (0..columns).for_each(|j| visit(first + i, second + j)));
     };
     for &slots in slots.iter() {
@@ -209,10 +210,15 @@ impl<S: System, T: Real, K: Sink<T>> Sink<T> for Between<'_, S, T, K> {
         if entry == T::lift(0.0) {
             return;
         }
-        let ([first, rows], [second, columns]) = (self.slots[row], self.slots[column]);
-        for i in 0..rows {
-            for j in 0..columns {
-                self.sink.add(first + i, second + j, self.left[row][i] * entry * self.right[column][j]);
+        let ([first, rows, _], [second, columns, _]) = (self.slots[row], self.slots[column]);
+        for j in 0..columns {
+            let changed = entry * self.right[column][j];
+            // A velocity varies with a displacement in one place, if it is not one of a unit vector.
+            if changed == T::lift(0.0) {
+                continue;
+            }
+            for i in 0..rows {
+                self.sink.add(first + i, second + j, self.left[row][i] * changed);
             }
         }
     }
