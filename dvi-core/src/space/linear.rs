@@ -54,7 +54,7 @@ pub(crate) fn residual<T: Real>(
 }
 
 /// The largest residual `b` of a row, relative to what it is made of; one that is not a number is an error.
-fn relative<T: Real>(b: &[T], sums: &[T]) -> Result<T, StepFailure> {
+pub(crate) fn relative<T: Real>(b: &[T], sums: &[T]) -> Result<T, StepFailure> {
     let mut largest = T::lift(0.0);
     for (coordinate, (&b, &sum)) in b.iter().zip(sums).enumerate() {
         if !b.is_finite() {

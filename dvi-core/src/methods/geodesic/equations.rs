@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::covectors::{depart, push, subtract_momentum};
+use super::covectors::{push, subtract_momentum};
 use super::memory::MassRows;
 use super::node::{Forces, Node, Path};
 use super::tangents::{Equations, Tangents};
@@ -12,7 +12,7 @@ use crate::mechanics::manifold::series::Series;
 use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{Block, blocks, vector};
 use crate::scalar::norm;
-use crate::space::{RowMatrix, Sink, SquareMatrix};
+use crate::space::{RowMatrix, Sink};
 use crate::state::Statistics;
 use crate::system::{CoordinateBlock, Factor};
 use crate::{ManifoldLagrangian, Real, Scalar, System};
@@ -50,15 +50,20 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
     /// Without unit vectors, −D₁K_d = J(−u)⁻¹ M u/h of rotations, and M Δ/h of numbers. M u/h = J(−u) p0 has
     /// the same solution, and M/h as its derivative but for that of J.
     #[inline]
-    fn linearize_drift(&self, mass: &MassRows<S, T>, displacement: &[T], tangents: &mut Tangents<S, T>) {
+    fn linearize_drift<K: Sink<T>>(
+        &self,
+        mass: &MassRows<S, T>,
+        displacement: &[T],
+        Node { work, slots, .. }: &mut Node<S, T>,
+        residual: &mut [T],
+        entries: &mut K,
+    ) {
         let (system, per_h) = (self.system, T::lift(1.0) / self.interval.h);
-        let Tangents { node: Node { work, slots, .. }, residual, matrix, .. } = tangents;
         let NodeWork { point, velocity, momentum, .. } = work;
         for place in blocks(system).flat_map(Block::velocities) {
             velocity[place] = per_h * displacement[place];
         }
         system.conjugate_momentum(point, velocity, self.interval.t, momentum);
-        let entries = matrix.cleared();
         for block in blocks(system) {
             for (slot, place) in block.slots().zip(block.places()) {
                 residual[slot] = momentum[place] - self.p[place];
@@ -80,7 +85,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
         }
     }
 
-    /// Sets `p` to the momentum at the end of the displacement.
+    /// Adds to `p` what L does to the momentum in the step.
     #[inline]
     pub(super) fn balance(
         &self,
@@ -90,9 +95,6 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
         statistics: &mut Statistics,
     ) {
         let (system, path) = (self.system, self.path(displacement));
-        for block in blocks(system) {
-            depart(block, path, self.p, p);
-        }
         if self.mass.is_some() && !has_spheres::<S, T>() {
             return;
         }
@@ -129,21 +131,31 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S
         }
     }
 
+    #[inline]
+    fn given(&self) -> &[T] {
+        self.p
+    }
+
     /// The residual is −D₁L_d − p0, or that of a [drift](Begin::linearize_drift).
     #[inline]
-    fn linearize(&self, displacement: &[T], tangents: &mut Tangents<S, T>, statistics: &mut Statistics) {
+    fn linearize<K: Sink<T>>(
+        &self,
+        displacement: &[T],
+        node: &mut Node<S, T>,
+        residual: &mut [T],
+        entries: &mut K,
+        statistics: &mut Statistics,
+    ) {
         let (system, path) = (self.system, self.path(displacement));
         if let Some(mass) = self.mass
             && !has_spheres::<S, T>()
         {
-            return self.linearize_drift(mass, displacement, tangents);
+            return self.linearize_drift(mass, displacement, node, residual, entries);
         }
-        let Tangents { node, residual, matrix, .. } = tangents;
         residual.fill(T::lift(0.0));
         for block in blocks(system) {
             subtract_momentum(block, self.p, residual, || path.circle(block));
         }
-        let entries = matrix.cleared();
         let Some(mass) = self.mass else {
             statistics.linearizations += self.rule.nodes().len() as u64;
             for [c, weight] in nodes(self.rule, self.interval.h) {

@@ -4,11 +4,12 @@ use super::tangents::{TangentMass, Tangents};
 use crate::mechanics::manifold::{Block, blocks};
 use crate::mechanics::pattern::mass_entries;
 use crate::memory::lasting;
+use crate::scalar::carries_derivatives;
 use crate::space::inertia::inertia;
 use crate::space::{RowMatrix, Sink};
 use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
-use crate::system::ManifoldSystem;
+use crate::system::{Factor, ManifoldSystem};
 use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Vector};
 
 /// The momentum of a run of [`Geodesic`](super::Geodesic), what its next step is guessed from, and work
@@ -41,6 +42,8 @@ pub(super) type MassRows<S, T> = <<S as System>::Space as Space>::Rows<<S as Sys
 #[derive(Debug)]
 pub(super) struct Kicks<S: System, T: Real> {
     pub(super) mass: MassRows<S, T>,
+    /// 1/m for each velocity, where drifts are [free](inverse_masses).
+    pub(super) free: Option<Vector<S, T>>,
     /// The force at the current point, as a covector of the manifold.
     pub(super) force: Vector<S, T>,
 }
@@ -52,6 +55,31 @@ pub(super) fn mass_at<S: ManifoldLagrangian<T>, T: Real>(system: &S, at: [&[T]; 
         space.rows(space, |visit| mass_entries(system, at, t, |row, column, _| visit(row, column)));
     mass_entries(system, at, t, |row, column, entry| rows.add(row, column, entry));
     rows
+}
+
+/// 1/m for each velocity, where M couples no two of them, and those of a rotation or a unit vector have one
+/// mass. Then a drift does not change the momentum: its displacement is h p/m. In numbers with derivatives
+/// masses that are the same may not remain so.
+pub(super) fn inverse_masses<S: ManifoldLagrangian<T>, T: Real>(
+    system: &S,
+    mass: &MassRows<S, T>,
+) -> Option<Vector<S, T>> {
+    let mut inverses: Vector<S, T> = system.space().vector();
+    let mut is_free = !carries_derivatives::<T>();
+    for block in blocks(system) {
+        for place in block.velocities() {
+            mass.row(place, |column, entry| {
+                if column == place {
+                    inverses[place] = T::lift(1.0) / entry;
+                } else {
+                    is_free &= entry == T::lift(0.0);
+                }
+            });
+        }
+        is_free &= block.factor == Factor::Line
+            || block.vector().map(|place| inverses[place]) == [inverses[block.place(0)]; 3];
+    }
+    is_free.then_some(inverses)
 }
 
 /// Whether M is positive, and with it that of the tangent vectors at all points.

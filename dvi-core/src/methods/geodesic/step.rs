@@ -8,9 +8,10 @@
 //! with the forces f as p is, the torque in the body of a rotation and s × ∂L/∂s of a unit vector, and K_d
 //! the discrete Lagrangian of ½ v·M v. It is the general step, because there the forces of the first end do
 //! not depend on the displacement, and those of the last do no work where the last point is held. It
-//! evaluates one force.
+//! evaluates one force. Where M is a mass of each block alone, the drift is free: its displacement is h p½/m,
+//! and p½ stays what it is.
 
-use super::covectors::{force, increment_of, velocity};
+use super::covectors::{depart, force, increment_of, velocity};
 use super::equations::{Begin, nodes};
 use super::memory::{Arrival, GeodesicMemory, Kicks};
 use crate::discrete::Interval;
@@ -53,26 +54,37 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
             kick(p0, first, force);
         }
         let mass = kicks.as_ref().map(|kicks| &kicks.mass);
+        let free = kicks.as_ref().and_then(|kicks| kicks.free.as_ref());
         let begin = Begin { system, rule, interval, q, p: p0, mass };
-        from_either_guess(|guess| {
-            let displacement = &mut arrival.displacement;
-            rates.guess(h, guess, [&mut *displacement]);
-            multiply(displacement, h);
-            tangents.solve(&begin, system, displacement, stopping, statistics)?;
-            check(system, displacement)
-        })?;
-        // The determinant of the equations has the sign of that of a short step.
-        let is_odd = h < T::lift(0.0) && tangents.residual.len() % 2 == 1;
-        if tangents.matrix.is_positive() != (*is_positive ^ is_odd) {
-            return Err(StepFailure::Branch);
+        if let Some(inverses) = free {
+            for ((u, &inverse), &p) in arrival.displacement.iter_mut().zip(inverses.iter()).zip(p0.iter()) {
+                *u = h * (inverse * p);
+            }
+            check(system, &arrival.displacement)?;
+        } else {
+            from_either_guess(|guess| {
+                let displacement = &mut arrival.displacement;
+                rates.guess(h, guess, [&mut *displacement]);
+                multiply(displacement, h);
+                tangents.solve(&begin, system, displacement, stopping, statistics)?;
+                check(system, displacement)
+            })?;
+            // The determinant of the equations has the sign of that of a short step.
+            let is_odd = h < T::lift(0.0) && tangents.residual.len() % 2 == 1;
+            if tangents.matrix.is_positive() != (*is_positive ^ is_odd) {
+                return Err(StepFailure::Branch);
+            }
         }
         let Arrival { displacement, increment, lifted: next, q: q1, v, p: p1, force: f1 } = arrival;
         for block in blocks(system) {
             increment_of(block, begin.path(displacement), lifted, increment);
+            depart(block, begin.path(displacement), p0, p1);
         }
         carried.add(lifted, increment, next);
         manifold::lower(system, next, q1);
-        begin.balance(displacement, tangents, p1, statistics);
+        if free.is_none() {
+            begin.balance(displacement, tangents, p1, statistics);
+        }
         if kicks.is_some() {
             system.force(q1, &[], end, f1);
             force(system, q1, f1);

@@ -15,9 +15,9 @@ use crate::mechanics::orientation::keep;
 use crate::memory::lasting;
 use crate::scalar::norm;
 use crate::solve::{Due, Stopping, newton, sizes};
-use crate::space::SquareMatrix;
 use crate::space::inertia::{Inertia, inertia};
-use crate::space::linear::{power_below, scale, set_scales};
+use crate::space::linear::{power_below, relative, scale, set_scales};
+use crate::space::{Sink, SquareMatrix};
 use crate::state::Statistics;
 use crate::system::{Factor, ManifoldSystem};
 use crate::{ManifoldLagrangian, Real, Scalar, Space};
@@ -41,8 +41,18 @@ pub(super) trait Equations<S: ManifoldSystem, T: Real> {
     /// The size of a block, in which its corrections are judged.
     fn size(&self, block: Block, unknown: &[T]) -> T;
 
-    /// Sets the residual, and the matrix to its derivative.
-    fn linearize(&self, unknown: &[T], tangents: &mut Tangents<S, T>, statistics: &mut Statistics);
+    /// What is solved for: a momentum.
+    fn given(&self) -> &[T];
+
+    /// Sets the residual, and adds the entries of its derivative.
+    fn linearize<K: Sink<T>>(
+        &self,
+        unknown: &[T],
+        node: &mut Node<S, T>,
+        residual: &mut [T],
+        entries: &mut K,
+        statistics: &mut Statistics,
+    );
 
     /// A unit vector's `unknown` without a correction along its great circle and across.
     fn corrected(&self, block: Block, unknown: Vector3<T>, correction: [T; 2]) -> Vector3<T>;
@@ -64,6 +74,41 @@ impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
         Self { node, residual, matrix, weights, scales }
     }
 
+    /// Sets the residual and the matrix to those of `equations`.
+    #[inline]
+    pub(super) fn linearize(
+        &mut self,
+        equations: &impl Equations<S, T>,
+        unknown: &[T],
+        statistics: &mut Statistics,
+    ) {
+        let Self { node, residual, matrix, .. } = self;
+        equations.linearize(unknown, node, residual, matrix.cleared(), statistics);
+    }
+
+    /// The largest residual, relative to what it is made of.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotFinite`].
+    #[cold]
+    #[inline(never)]
+    fn relative_residual(
+        &mut self,
+        equations: &impl Equations<S, T>,
+        system: &S,
+        unknown: &[T],
+    ) -> Result<T, StepFailure> {
+        let Self { node, residual, weights, scales: sums, .. } = self;
+        for block in blocks(system) {
+            let given = |largest, place: usize| norm::larger(largest, Scalar::abs(equations.given()[place]));
+            sums[block.slots()].fill(block.places().fold(T::lift(0.0), given));
+        }
+        let mut sink: &mut dyn FnMut(usize, usize, T) =
+            &mut |row, column, entry| sums[row] += Scalar::abs(entry / weights[column]);
+        equations.linearize(unknown, node, residual, &mut sink, &mut Statistics::default());
+        relative(residual, sums)
+    }
+
     /// Improves the unknown by Newton's method.
     ///
     /// # Errors
@@ -78,17 +123,20 @@ impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         newton(stopping, statistics, &mut |due, statistics| {
-            // Nothing else is done: an iterate that no longer improves is judged by its next correction.
-            if mem::replace(due, Due::Nothing) == Due::Sizes {
-                for block in blocks(system) {
-                    self.weights[block.slots()].fill(sizes::weight_of(equations.size(block, unknown)));
+            match mem::replace(due, Due::Nothing) {
+                Due::Sizes => {
+                    for block in blocks(system) {
+                        self.weights[block.slots()].fill(sizes::weight_of(equations.size(block, unknown)));
+                    }
+                    if has_units::<S, T>() {
+                        set_scales(&mut self.scales, &self.weights);
+                        self.scales.iter_mut().for_each(|scale| *scale = power_below(*scale));
+                    }
                 }
-                if has_units::<S, T>() {
-                    set_scales(&mut self.scales, &self.weights);
-                    self.scales.iter_mut().for_each(|scale| *scale = power_below(*scale));
-                }
+                Due::Residual => return self.relative_residual(equations, system, unknown),
+                Due::Nothing | Due::Shake | Due::Response => {}
             }
-            equations.linearize(unknown, self, statistics);
+            self.linearize(equations, unknown, statistics);
             statistics.factorisations += 1;
             if has_units::<S, T>() {
                 self.matrix.scale_rows(&self.scales);
@@ -136,10 +184,20 @@ impl<S: ManifoldLagrangian<T>, T: Real> Equations<S, T> for Legendre<'_, S, T> {
         block.places().fold(T::lift(0.0), |largest, place| norm::larger(largest, Scalar::abs(v[place])))
     }
 
-    fn linearize(&self, v: &[T], tangents: &mut Tangents<S, T>, _statistics: &mut Statistics) {
+    fn given(&self) -> &[T] {
+        self.p
+    }
+
+    fn linearize<K: Sink<T>>(
+        &self,
+        v: &[T],
+        node: &mut Node<S, T>,
+        residual: &mut [T],
+        entries: &mut K,
+        _statistics: &mut Statistics,
+    ) {
         let Self { system, q, p, t } = *self;
-        let Tangents { node, residual, matrix, .. } = tangents;
-        node.add_mass(system, [q, v], t, matrix.cleared());
+        node.add_mass(system, [q, v], t, entries);
         residual.fill(T::lift(0.0));
         for block in blocks(system) {
             subtract_momentum(block, p, residual, || at_rest(block, q));
