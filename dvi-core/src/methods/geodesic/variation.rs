@@ -38,10 +38,13 @@ impl<S: System, T: Real> Variation<S, T> {
     /// The same for the nine entries of a rotation matrix R: R η̂ for η in the columns.
     #[inline]
     pub(super) fn turn(rows: &mut Rows<S, T>, block: Block, matrix: &Matrix3<T>, columns: &Matrix3<T>) {
-        for column in 0..3 {
-            let turned = matrix * columns.column(column).into_owned().cross_matrix();
-            for (place, &entry) in block.places().zip(turned.transpose().iter()) {
-                rows[place][column] = entry;
+        for (column, eta) in columns.column_iter().enumerate() {
+            for row in 0..3 {
+                // r η̂ = (r × η)ᵀ for a row r.
+                let turned = matrix.row(row).transpose().cross(&eta);
+                for (number, &entry) in turned.iter().enumerate() {
+                    rows[block.place(3 * row + number)][column] = entry;
+                }
             }
         }
     }
@@ -211,14 +214,13 @@ impl<S: System, T: Real, K: Sink<T>> Sink<T> for Between<'_, S, T, K> {
             return;
         }
         let ([first, rows, _], [second, columns, _]) = (self.slots[row], self.slots[column]);
-        for j in 0..columns {
-            let changed = entry * self.right[column][j];
+        for (column, &right) in self.right[column][..columns].iter().enumerate() {
+            let changed = entry * right;
             // A velocity varies with a displacement in one place, if it is not one of a unit vector.
-            if changed == T::lift(0.0) {
-                continue;
-            }
-            for i in 0..rows {
-                self.sink.add(first + i, second + j, self.left[row][i] * changed);
+            if changed != T::lift(0.0) {
+                for (row, &left) in self.left[row][..rows].iter().enumerate() {
+                    self.sink.add(first + row, second + column, left * changed);
+                }
             }
         }
     }
