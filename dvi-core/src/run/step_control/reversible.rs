@@ -20,8 +20,8 @@ use crate::{Held, Real, RegularLagrangian, Scalar, Space, System, Vector};
 /// symmetrically (Hairer & Söderlind 2005).
 ///
 /// κ = 3/2 takes steps in proportion to the time of free fall: on Kepler's problem all orbits of the same
-/// shape then have the same number of steps a revolution, about (2π/ε)·mean(ρ) over time. Steps of another
-/// density are a [`StepControl`] of your own.
+/// shape then have the same number of steps a revolution, about T·mean(ρ)/ε with the period T and the mean
+/// over time. Steps of another density are a [`StepControl`] of your own.
 ///
 /// With a symmetric method a run can be retraced backwards, so that energy errors do not drift on reversible
 /// orbits. The whole is not symplectic. The control is for regular systems. Beside the position it needs the
