@@ -37,7 +37,8 @@ use start::one_step;
 /// ```
 ///
 /// It is of second order, and for σ = ½ symmetric; for σ = (3 − √3)/6 and σ = (3 + √3)/6 it is of fourth
-/// order on linear systems. For σ = 0 and σ = 1 it is explicit, with one ∇H a step. Each step preserves the
+/// order on linear systems, and of third with the default [`start`](Self::start), whose second point has an
+/// error of the order h³. For σ = 0 and σ = 1 it is explicit, with one ∇H a step. Each step preserves the
 /// discrete two-form on Q×Q (Rowley & Marsden 2002, eq. 17) and, for symmetries that act by affine maps, the
 /// discrete momenta.
 ///
@@ -64,8 +65,7 @@ use start::one_step;
 /// `run.memory().parasitic_mode()` reads it), and a run in which it has taken over
 /// ends with [`StepFailure::ParasiticMode`](crate::error::StepFailure): see
 /// [`parasitic_limit`](Self::parasitic_limit). On a linear oscillation of frequency ω the scheme is stable
-/// for |ωh| < 1/|1 − 2σ|; for |ωh| above 1.4 the second point of [`Start::Consistent`] is not found, and a
-/// run takes [`Start::RungeKutta`] or two points.
+/// for |ωh| < 1/|1 − 2σ|.
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/vortices.txt")]
