@@ -55,9 +55,9 @@ pub use coefficients::Fitting;
 /// whatever the rule, if sin u ≠ 0 and S ≠ 0 for u = ωh; near a zero of either a step ends with
 /// [`StepFailure::Resonance`]. With symmetric rules it is the motion that begins at (q0, v0) if v0 = 0 or
 /// with [`Fitting::PhaseAndMomentum`]; else it has another amplitude, because the momentum is off by a
-/// factor that depends on the length. So steps of different lengths are exact with the latter only. With
-/// other rules it has another amplitude and phase. A fitted interpolation is not translation invariant:
-/// constants are not among the functions that it interpolates.
+/// factor that depends on the length. So steps of different lengths, and states between two points, are
+/// exact with the latter only. With other rules it has another amplitude and phase. A fitted interpolation
+/// is not translation invariant: constants are not among the functions that it interpolates.
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/pendulum.txt")]
