@@ -37,8 +37,9 @@ const ROUNDINGS: f64 = 4.0;
 /// `Variational::trapezoid()` ends after a few.
 ///
 /// Where another solution is nearer than the one that belongs to the steps before, or that one has ended,
-/// lengths jump: on a Kepler orbit of eccentricity 0.9 by a factor of two. In dual numbers the derivative of
-/// h is that of an iteration before the last. The defect of E_d is at most 1e-14 of the larger of |E| and
+/// lengths jump. On a Kepler orbit of eccentricity 0.9 they do by a factor of two, and runs of the midpoint
+/// rule with first steps from 0.0003 to 0.03 end before they are half around. In dual numbers the derivative
+/// of h is that of an iteration before the last. The defect of E_d is at most 1e-14 of the larger of |E| and
 /// v·∂L/∂v at the start, or what rounding leaves.
 ///
 /// A step takes several of the method, and six to seven times the evaluations of derivatives of one whose
