@@ -2,6 +2,7 @@
 
 use dvi_core::RegularLagrangian;
 use dvi_core::error::CheckpointError;
+use dvi_core::field::{Axis, Spline};
 use dvi_core::methods::{Method, VariableStep};
 use dvi_core::prelude::*;
 use dvi_core::run::{Checkpoint, StepControl};
@@ -44,6 +45,32 @@ where
         }
     }
     Ok(())
+}
+
+/// A start of the leapfrog takes a step, beyond the end of the table too; a checkpoint needs none, with a
+/// limit of the energy either.
+#[test]
+fn runs_go_on_from_the_end_of_a_table() -> Outcome {
+    #[degenerate_lagrangian(
+        coordinates(q, p),
+        one_form = (p * d(q) - q * d(p)) / 2.0,
+        hamiltonian = (p * p + q * q) / 2.0 - q * push(t),
+    )]
+    struct Pushed {
+        push: Spline<1>,
+    }
+    fn check<M: Method<Pushed, f64> + Copy>(system: &Pushed, method: M) -> Outcome {
+        let mut run = Integrator::new(system, method, 0.125, PushedState { q: 1.0, p: 0.0 })?;
+        run.take_steps(8)?;
+        let again = Integrator::resume(system, method, &run.checkpoint())?;
+        assert_eq!(asked(&again), asked(&run));
+        assert_eq!(run.dense()?.state_at(1.0)?, again.state());
+        Ok(())
+    }
+    let push = Spline::sample([Axis::uniform([0.0, 1.0], 11)?], |[t]| t.sin())?;
+    let system = Pushed { push };
+    check(&system, Sigma::leapfrog())?;
+    check(&system, EnergyLimit { method: Sigma::leapfrog(), limit: 1.0 })
 }
 
 /// A pendulum, whose steps leave as much of its constraint as their tolerance allows.

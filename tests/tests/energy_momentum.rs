@@ -93,6 +93,28 @@ fn where_no_length_keeps_the_energy_the_run_ends_at_the_last_good_state() -> Out
     Ok(())
 }
 
+/// On a quartic spring lengths grow without end, and the limit ends the run.
+#[test]
+fn a_limit_of_the_energy_goes_around_the_method() -> Outcome {
+    let method = Variational::midpoint();
+    let limited = EnergyLimit { method, limit: 0.05 };
+    let control = EnergyMomentum::new(0.1);
+    let mut run = Integrator::controlled(&Spring, method, control, SPRING)?;
+    let mut watched = Integrator::controlled(&Spring, limited, control, SPRING)?;
+    run.take_steps(500)?;
+    watched.take_steps(500)?;
+    assert_eq!((watched.state(), watched.time()), (run.state(), run.time()));
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.powi(4) / 4.0)]
+    #[derive(Clone, Debug)]
+    struct Quartic;
+    let start = QuarticState { x: 1.0, dot_x: 0.0 };
+    let mut run = Integrator::controlled(&Quartic, limited, EnergyMomentum::new(0.01), start)?;
+    assert!(run.take_steps(3000).is_err());
+    assert_abs_diff_eq!(run.energy(), 0.25, epsilon = 0.05);
+    Ok(())
+}
+
 #[test]
 fn what_has_no_conserved_energy_is_refused() {
     let control = EnergyMomentum::new(0.1);

@@ -4,9 +4,12 @@
 //! Störmer–Verlet on a head-on Kepler orbit goes from energy −1 to 285 within two steps, and nothing but the
 //! energy says so.
 
+use crate::discrete::Span;
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, Here, Kept, Method, Scheme, Step, Tolerance, VariableStep, scheme};
+use crate::methods::{
+    Carries, DiscreteEnergy, Here, Kept, Method, Scheme, Step, Tolerance, VariableStep, scheme,
+};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::extended;
@@ -71,6 +74,29 @@ impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for EnergyLimit<M> {
 /// that does not suit a system, and report it there once more.
 type Itself<M> = <M as Same<M>>::As;
 
+impl<M> EnergyLimit<M> {
+    /// The memory around that of the method, of a run from (`q`, `v`, `t`).
+    fn around<S: Lagrangian<T>, T: Real, I>(
+        &self,
+        system: &S,
+        (q, v, t): (&Vector<S, T>, &[T], T),
+        begin: impl Fn() -> Result<I, StartError>,
+    ) -> Result<EnergyLimitMemory<I, Vector<S, T>, T>, StartError> {
+        StartError::unless(self.limit > 0.0, "limit", self.limit, "positive")?;
+        let (start, before) = (watched(system, q, v, t), Kept { q: q.clone(), memory: begin()? });
+        Ok(EnergyLimitMemory { inner: begin()?, before, v: system.space().vector(), start })
+    }
+
+    /// The discrete energy of the method, not a number if it is not known.
+    fn energy_of<S: Lagrangian<T>, T: Real>(&self, span: Span<'_, S, T>, node: &mut [Vector<S, T>; 2]) -> T
+    where
+        Itself<M>: Method<S, T>,
+    {
+        let energy = <Itself<M> as Method<S, T>>::DISCRETE_ENERGY;
+        energy.map_or(T::lift(f64::NAN), |energy| energy(&self.method, span, node))
+    }
+}
+
 impl<S: Lagrangian<T>, T: Real, M> Method<S, T> for EnergyLimit<M>
 where
     Itself<M>: Method<S, T>,
@@ -78,10 +104,18 @@ where
     type Suited<X> = <M as Method<S, T>>::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        StartError::unless(self.limit > 0.0, "limit", self.limit, "positive")?;
-        let begin = || self.method.begin(system, q, v, t, h);
-        let (start, before) = (watched(system, q, v, t), Kept { q: q.clone(), memory: begin()? });
-        Ok(EnergyLimitMemory { inner: begin()?, before, v: system.space().vector(), start })
+        self.around(system, (q, v, t), || self.method.begin(system, q, v, t, h))
+    }
+
+    fn begin_again(
+        &self,
+        system: &S,
+        q: &Vector<S, T>,
+        v: &[T],
+        t: T,
+        h: T,
+    ) -> Result<Self::Memory, StartError> {
+        self.around(system, (q, v, t), || self.method.begin_again(system, q, v, t, h))
     }
 
     fn begun_anew(&self, before: &Self::Memory, begun: Self::Memory) -> Self::Memory {
@@ -132,6 +166,9 @@ where
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         self.method.velocity(here, &memory.inner, v)
     }
+
+    const DISCRETE_ENERGY: Option<DiscreteEnergy<Self, S, T>> =
+        if <Itself<M> as Method<S, T>>::DISCRETE_ENERGY.is_some() { Some(Self::energy_of) } else { None };
 
     const ESTIMATES_LOCAL_ERROR: bool = <Itself<M> as Method<S, T>>::ESTIMATES_LOCAL_ERROR;
 
