@@ -62,6 +62,7 @@ use crate::{Real, RegularLagrangian, Scalar, Separable, System, Vector};
 /// }
 /// // The mean of x² is θ/k.
 /// assert!((sum / 1e5 - 0.5 / 4.0).abs() < 3e-3);
+/// assert_eq!(run.memory().p(), [run.state().dot_x]); // p = m v, of the mass 1
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +87,13 @@ pub struct LangevinMemory<S: System, T: Real> {
 }
 
 lasting!([S: System, T: Real] LangevinMemory<S, T>, T; part carried, count step);
+
+impl<S: System, T: Real> LangevinMemory<S, T> {
+    /// p = ∂L/∂v at the current point, one entry per coordinate.
+    pub fn p(&self) -> &[T] {
+        &self.carried.phase.p
+    }
+}
 
 impl Langevin {
     fn validate<T: Real>(&self, h: T) -> Result<(), StartError> {
