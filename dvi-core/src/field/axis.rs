@@ -61,9 +61,11 @@ impl Axis {
     pub fn uniform([from, to]: [f64; 2], count: usize) -> Result<Self, SplineError> {
         let last = count.saturating_sub(1).max(1);
         // The ends are met exactly, and halves of large numbers do not overflow.
-        let point = |i: usize| {
-            let part = i as f64 / last as f64;
-            if i == last { to } else { (1.0 - part) * from + part * to }
+        let (start, length) = (0.5 * from, 0.5 * to - 0.5 * from);
+        let point = |i: usize| match i {
+            0 => from,
+            _ if i == last => to,
+            _ => 2.0 * (start + i as f64 / last as f64 * length),
         };
         Self::new(&(0..count).map(point).collect::<Vec<f64>>())
     }

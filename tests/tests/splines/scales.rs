@@ -69,6 +69,16 @@ fn accuracy_far_from_zero() -> Outcome {
     Ok(())
 }
 
+/// Points that are numbers are met exactly, so that a table of hourly values stands at the hours.
+#[test]
+fn uniform_points_far_from_zero_are_not_rounded_twice() -> Outcome {
+    for (from, step) in [(1.7e9, 1.0), (1.7e9, 0.25), (-1.7e9, 0.5)] {
+        let axis = Axis::uniform([from, from + 100.0 * step], 101)?;
+        assert!((0..101).all(|k| axis.points()[k] == from + step * k as f64), "{from} {step}");
+    }
+    Ok(())
+}
+
 /// In single precision the spline is the same to its rounding.
 #[test]
 fn single_precision() -> Outcome {
