@@ -7,7 +7,7 @@ use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::memory::lasting;
 use crate::scalar::norm;
-use crate::scalar::passes::multiply;
+use crate::scalar::passes::{kick, multiply};
 use crate::state::history::History;
 use crate::state::rates::is_similar;
 use crate::state::summation::{Carried, Summation};
@@ -65,12 +65,16 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     }
 
     /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if
-    /// they had about this length; else that of a free motion with `momentum`, where the mass matrix is
-    /// constant.
+    /// they had about this length; else that of a free motion, where the mass matrix is constant, or of one
+    /// that `falls`, which moves from rest too, if L is separable.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn guess(&self, mass: &Mass<S, T>, momentum: &[T], h: T, increment: &mut [T]) {
+    pub(crate) fn guess(&self, mass: &Mass<S, T>, h: T, falls: bool, increment: &mut [T]) {
         if S::CONSTANT_MASS && !self.extrapolates_to(h) {
-            mass.solve(momentum, increment);
+            increment.copy_from_slice(&self.p);
+            if S::SEPARABLE && falls {
+                kick(increment, T::lift(0.5) * h, &self.force);
+            }
+            mass.solve_in_place(increment);
         } else {
             self.history.extrapolate(increment);
         }

@@ -122,7 +122,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         let Work { node, increment, trial, weights, .. } = work;
         let coefficients = &mut equations.begin(&begin, node)?;
         match guess {
-            Guess::Extrapolated => phase.guess(mass, &phase.p, interval.h, increment),
+            Guess::Extrapolated => phase.guess(mass, interval.h, E::READS_VELOCITY, increment),
             Guess::Zero => increment.fill(T::lift(0.0)),
         }
         let mut posed = Posed { equations, coefficients, begin: &begin, node };
@@ -154,7 +154,7 @@ fn iterate_by_mass<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E:
 ) -> Result<(), StepFailure> {
     let (h, is_explicit) = (begin.interval.h, S::SEPARABLE && equations.is_explicit());
     if !is_explicit {
-        begin.phase.guess(begin.mass, &begin.phase.p, h, increment);
+        begin.phase.guess(begin.mass, h, E::READS_VELOCITY, increment);
     }
     solve_by_fixed_point(
         (begin.system, begin.q),

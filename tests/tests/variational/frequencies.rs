@@ -67,6 +67,33 @@ fn a_frequency_without_what_its_reading_needs_is_refused() -> Outcome {
     Ok(())
 }
 
+/// Where a motion begins at rest the guess of a free motion goes nowhere, and has no curvature.
+#[test]
+fn a_curvature_is_read_from_rest() -> Outcome {
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - (x * x + 4.0 * y * y) / 2.0,
+    )]
+    struct Springs;
+    fn errors<M: Method<Springs, f64> + Copy>(method: M) -> Outcome<[f64; 2]> {
+        let error = |steps: u32| {
+            let start = SpringsState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
+            let mut run = Integrator::new(&Springs, method, 2.0 / f64::from(steps), start)?;
+            run.take_steps(steps.into())?;
+            Ok::<_, Box<dyn core::error::Error>>(
+                (run.q()[0] - 2_f64.cos()).hypot(run.q()[1] - 4_f64.cos() / 2.0),
+            )
+        };
+        Ok([error(40)?, error(80)?])
+    }
+    let curvature = Curvature(Reading::Averaged);
+    let [coarse, fine] = errors(Variational::simpson().phase_fitted(curvature))?;
+    assert!((3.9..4.1).contains(&(coarse / fine)) && fine < 1e-4, "{coarse:e} {fine:e}");
+    let [coarse, fine] = errors(Galerkin::<3>::new().phase_fitted(curvature))?;
+    assert!((14.0..18.0).contains(&(coarse / fine)) && fine < 1e-6, "{coarse:e} {fine:e}");
+    Ok(())
+}
+
 #[test]
 fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
     let method = Variational::simpson().phase_fitted(Constant(2.0));

@@ -110,7 +110,7 @@ where
                 _ => displacement.fill(T::lift(0.0)),
             }
         }
-        phase.guess(&inertial.mass, &phase.p, *h, &mut unknowns[NODES - 1]);
+        phase.guess(&inertial.mass, *h, F::OF_VELOCITY, &mut unknowns[NODES - 1]);
     }
 
     /// Moves to q1 = q0 + Δ and p1 = p0 + (D₁ + D₂)L_d, if they are numbers and the mass matrix has kept its

@@ -55,6 +55,8 @@ impl<T: Real> Kinetic<T> {
 pub(in crate::methods) trait Equations<S: Lagrangian<T>, T: Real> {
     /// Whether the kinetic part is another than that of the mean velocity.
     const FITTED: bool = false;
+    /// Whether it depends on the direction of Δ, so that Δ = 0 is no guess.
+    const READS_VELOCITY: bool = false;
     /// What evaluations may change. It is a value of the step, which no other function sees.
     type Coefficients;
 

@@ -110,6 +110,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
     for Interpolated<'_, READ, S, F, R, T>
 {
     const FITTED: bool = !F::UNFITTED;
+    const READS_VELOCITY: bool = F::OF_VELOCITY;
 
     type Coefficients = Coefficients<T>;
 
