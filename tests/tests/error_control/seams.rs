@@ -323,6 +323,19 @@ fn a_run_over_seams_goes_on_from_a_checkpoint() -> Outcome {
     Ok(())
 }
 
+/// A first step that is much too long says nothing of the steps that are taken.
+#[test]
+fn steps_are_not_short_beside_one_that_was_never_taken() -> Outcome {
+    for first_step in [1e6, -1e6] {
+        let (end, control) = (400.0_f64.copysign(first_step), ErrorControl::new(1e-9, first_step));
+        let start = WellState { x: 1.0, dot_x: 0.0 };
+        let mut run = Integrator::controlled(&Well, Gauss::<4>::new(), control, start)?;
+        run.advance_to(end)?;
+        assert_abs_diff_eq!(run.state().x, well(1.0, end), epsilon = 1e-8);
+    }
+    Ok(())
+}
+
 /// Numbers of 32 bits, and the derivative of a place by the amplitude: the time at which a seam is met has
 /// one too.
 #[test]

@@ -36,8 +36,8 @@ const GOES_ON: f64 = 1024.0;
 /// Iterations for the derivatives of a length, of numbers that carry some.
 const POLISHED: usize = 3;
 /// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
-/// hop is a step that is shorter than this part of usual ones and begins or ends at a seam, or near one, or
-/// is shorter by all of the machine precision.
+/// hop is a step that is shorter than this part of those that were taken, or by half of the digits than
+/// usual ones, and begins or ends at a seam, or near one, or is shorter by all of the machine precision.
 const HOPS: (usize, f64) = (64, 1e-3);
 /// Within so many steps of this length a seam is near.
 const NEAR: f64 = 8.0;
@@ -57,8 +57,10 @@ pub(super) struct Seams<S: System, T: Real> {
     pub(super) near: [Vector<S, T>; 2],
     /// Hops without a longer step between them.
     hops: usize,
-    /// How long steps have been, the longest of them fading.
+    /// How long steps have been, as far as their errors tell, the longest of them fading.
     usual: T,
+    /// How long those were that have been taken, in the same way.
+    taken: T,
 }
 
 /// The lengths of a step that ends on either side of a seam.
@@ -69,12 +71,12 @@ pub(super) struct AtSeam<T> {
     pub(super) behind: T,
 }
 
-lasting!([S: System, T: Real] Seams<S, T>, T; count hops, number usual);
+lasting!([S: System, T: Real] Seams<S, T>, T; count hops, number usual, number taken);
 
 impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let ([q, v, v_end], zero) = (system.space().vectors(), T::lift(0.0));
-        Self { t: zero, q, v, v_end, near: system.space().vectors(), hops: 0, usual: zero }
+        Self { t: zero, q, v, v_end, near: system.space().vectors(), hops: 0, usual: zero, taken: zero }
     }
 
     /// Keeps the present point, at time `t`, where steps begin.
@@ -228,8 +230,11 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         run: &ControlledRun<'_, S, M, T>,
         [h, usual]: [T; 2],
     ) -> Result<(), StepFailure> {
-        self.usual = larger(usual, T::lift(FADING) * self.usual);
-        if Scalar::abs(h) > T::lift(HOPS.1) * self.usual {
+        let (length, fading) = (Scalar::abs(h), T::lift(FADING));
+        self.usual = larger(usual, fading * self.usual);
+        self.taken = larger(length, fading * self.taken);
+        let hop = larger(T::lift(HOPS.1) * self.taken, Scalar::sqrt(T::default_epsilon()) * self.usual);
+        if length > hop {
             self.hops = 0;
             return Ok(());
         }
@@ -241,7 +246,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
             Scalar::abs(begin) <= T::lift(NEAR) * Scalar::abs(change)
         };
         let near = (0..S::SEAMS).find(is_near);
-        let no_step = Scalar::abs(h) < T::default_epsilon() * self.usual;
+        let no_step = length < T::default_epsilon() * self.usual;
         let Some(seam) = near.or(no_step.then_some(nearest)) else { return Ok(()) };
         if self.hops >= HOPS.0 * S::SEAMS {
             return Err(StepFailure::Seam { seam, time: reported(t) });
