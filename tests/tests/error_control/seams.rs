@@ -336,6 +336,23 @@ fn steps_are_not_short_beside_one_that_was_never_taken() -> Outcome {
     Ok(())
 }
 
+/// A motion towards a pole leads away from the seam of its drag: v = 1/(1 + t/2), back in time.
+#[test]
+fn a_pole_is_no_seam() -> Outcome {
+    #[lagrangian(
+        coordinates(x),
+        lagrangian = dot(x).powi(2) / 2.0,
+        dissipation = dot(x).abs().powi(3) / 6.0,
+    )]
+    struct Drag;
+    let start = DragState { x: 0.0, dot_x: 1.0 };
+    let mut run = Integrator::controlled(&Drag, Gauss::<4>::new(), ErrorControl::new(1e-6, -0.01), start)?;
+    let error = run.advance_to(-2.2).err().ok_or("there is a pole")?;
+    assert!(!matches!(error.failure, StepFailure::Seam { .. }), "{error}");
+    assert_abs_diff_eq!(run.time(), -2.0, epsilon = 1e-6);
+    Ok(())
+}
+
 /// Numbers of 32 bits, and the derivative of a place by the amplitude: the time at which a seam is met has
 /// one too.
 #[test]

@@ -241,9 +241,10 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         let (_, nearest) = self.ahead(run, h)?;
         let (system, t) = (run.system(), self.t + h);
         let is_near = |&seam: &usize| {
-            let begin = self.at_begin(system, seam);
-            let change = system.seam(seam, run.q(), &self.v_end, t) - begin;
-            Scalar::abs(begin) <= T::lift(NEAR) * Scalar::abs(change)
+            let (begin, end) = (self.at_begin(system, seam), system.seam(seam, run.q(), &self.v_end, t));
+            // A step that leads away, as towards a pole, is none that stays.
+            let leads_away = begin * (end - begin) > T::lift(0.0);
+            !leads_away && Scalar::abs(begin) <= T::lift(NEAR) * Scalar::abs(end - begin)
         };
         let near = (0..S::SEAMS).find(is_near);
         let no_step = length < T::default_epsilon() * self.usual;
