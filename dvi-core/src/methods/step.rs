@@ -216,9 +216,11 @@ fn arrive<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E: Equation
         phase.reach(q, increment, next);
     }
     let end = interval.time(T::lift(1.0));
-    if S::SEPARABLE {
+    if S::SEPARABLE && equations.asks_ends() {
         set_force(system, next, end, force);
         statistics.gradients += 1;
+    } else if S::SEPARABLE {
+        force.copy_from_slice(&phase.force);
     }
     let begin = Begin { system, interval, q, phase, mass: &inertial.mass };
     sum.fill(T::lift(0.0));

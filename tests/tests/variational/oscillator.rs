@@ -22,6 +22,21 @@ fn cosine_sum(rule: &impl Rule, u: f64) -> f64 {
     rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
 }
 
+/// The forces inside are evaluated in each iteration and once for the momentum, that at the end once if there is
+/// a node at one of the ends.
+#[test]
+fn no_force_is_evaluated_where_no_node_is() -> Outcome {
+    let start = SpringState { x: 0.3, dot_x: 0.8 };
+    for rule in rules()? {
+        let mut run = Integrator::new(&SPRING, Variational::new(rule), 0.1, start)?;
+        run.take_steps(100)?;
+        let (of, inside) = (run.statistics(), rule.interior_nodes());
+        let at_ends = if inside < rule.nodes().len() { of.steps } else { 0 };
+        assert_eq!(of.gradients, inside as u64 * (of.iterations + of.steps) + at_ends, "{rule:?}");
+    }
+    Ok(())
+}
+
 /// On an ellipse, with steps of a length that follows the distance: with the phase alone fitted, momenta are
 /// off by a factor that differs from step to step.
 #[test]

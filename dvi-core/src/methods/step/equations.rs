@@ -109,6 +109,12 @@ pub(in crate::methods) trait Equations<S: Lagrangian<T>, T: Real> {
     fn is_explicit(&self) -> bool {
         false
     }
+
+    /// Whether the force at an end of a step is asked for, if L is separable.
+    #[inline]
+    fn asks_ends(&self) -> bool {
+        true
+    }
 }
 
 /// Sets `force` to that at a point at time `t`.

@@ -214,6 +214,12 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
     fn is_explicit(&self) -> bool {
         self.method.is_explicit()
     }
+
+    #[inline]
+    fn asks_ends(&self) -> bool {
+        let Variational { rule, frequency, .. } = self.method;
+        frequency.reading().is_some() || rule.interior_nodes() < rule.nodes().len()
+    }
 }
 
 impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> VariationalMethod<S, T> for Variational<Unfitted, R> {
