@@ -4,8 +4,9 @@
 //! D_k = q_{k−1} − 2q_k + q_{k+1}. On an alternating part (−1)ᵏa, D_{k−1} − 2D_k + D_{k+1} is 16a, and
 //! D_{k−1} + 2D_k + D_{k+1} is nothing; on a smooth motion the second is 4h²q̈. The mode is compared with a
 //! quarter of h²q̈, the size of what a step of second order neglects. Of a motion that turns by the angle θ
-//! in a step the ratio is tan²(θ/2). The solution of a stable step with σ ≠ ½ has θ < π/2, and the parasitic
-//! mode is its mirror image, π − θ (the two roots of Rowley & Marsden 2002, section 4.1, meet at θ = π/2).
+//! in a step the ratio is tan²(θ/2). The two roots of a stable step with σ ≠ ½ (Rowley & Marsden 2002,
+//! section 4.1) have tan(θ/2) tan(θ'/2) = 1/(1 − 2σ)²: of σ = 0 and 1 the parasitic mode is the mirror image
+//! of the solution, π − θ, and of other σ it is nearer to π. They meet at |ωh| = 1/|1 − 2σ|.
 
 mod pace;
 
