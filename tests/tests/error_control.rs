@@ -75,17 +75,6 @@ fn errors_fall_with_the_tolerance_on_an_eccentric_orbit() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn errors_fall_with_the_tolerance_on_vortices() -> Outcome {
-    let (vortices, start) = chaotic();
-    let end = 20.0;
-    let mut fine = Integrator::new(&vortices, Gauss::<8>::new().in_lanes(), end / 1000.0, start)?;
-    fine.take_steps(1000)?;
-    check(&errors(&vortices, Gauss::<3>::new(), &start, end, fine.q())?, 6.0, 4000.0, 0.1);
-    check(&errors(&vortices, Gauss::<8>::new().in_lanes(), &start, end, fine.q())?, 16.0, 4000.0, 0.1);
-    Ok(())
-}
-
 /// The smallest and the largest ratio of the error of a step, in units of the tolerance, to its estimate.
 fn estimates<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
     system: &S,

@@ -9,9 +9,9 @@ use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, Scalar};
 use dvi_tests::zoo::regular::{Sliding, SlidingState};
 
-use super::Outcome;
 use super::breaks::{Pushed, PushedState};
-use super::rough::{CORNERS, CornersState};
+use super::rough::{Corners, CornersState};
+use super::{KEPLER, Outcome, pericentre};
 
 /// All that makes a seam, and what makes none: sums over what differs from term to term, parameters,
 /// momenta and events.
@@ -287,12 +287,12 @@ fn no_step_sees_both_sides() -> Outcome {
     check(dry, (Gauss::<8>::new(), 0.01, 20.0), |_, state| vec![state.dot_x > 0.0])?;
     let pushed = (&PUSHED, &PushedState { x: 0.0, dot_x: 0.0 });
     check(pushed, (Gauss::<8>::new(), 0.01, 100.0), |t, _| vec![t > 50.0, t < 50.2])?;
-    let corners = (&CORNERS, &CornersState { x: 1.0, y: 0.3 });
+    let corners = (&Corners, &CornersState { x: 1.0, y: 0.3 });
     check(corners, (Gauss::<4>::new(), 0.01, 20.0), |_, state| vec![state.x > 0.0, state.y > 0.0])
 }
 
 #[test]
-fn a_run_over_seams_goes_on_from_a_checkpoint() -> Outcome {
+fn a_run_over_breaks_and_seams_goes_on_from_a_checkpoint() -> Outcome {
     fn check<S: Lagrangian<State<f64>: PartialEq>>(
         (system, start): (&S, &S::State<f64>),
         control: ErrorControl<'_>,
@@ -315,8 +315,10 @@ fn a_run_over_seams_goes_on_from_a_checkpoint() -> Outcome {
         Ok(None)
     }
     let control = ErrorControl::new(1e-9, 0.01);
+    let with_breaks = ErrorControl { breaks: &[0.2, 0.25, 1.0, 1.5], ..control };
+    assert_eq!(check((&KEPLER, &pericentre(0.5)), with_breaks, 2.0)?, None);
     assert_eq!(check((&Well, &WellState { x: 1.0, dot_x: 0.0 }), control, 20.0)?, None);
-    assert_eq!(check((&CORNERS, &CornersState { x: 1.0, y: 0.3 }), control, 20.0)?, None);
+    assert_eq!(check((&Corners, &CornersState { x: 1.0, y: 0.3 }), control, 20.0)?, None);
     // The hops before a failure are those of the checkpoint too.
     let failure = check((&Sliding, &SlidingState { x: 0.0, dot_x: 1.0 }), control, 20.0)?;
     assert!(matches!(failure, Some(StepFailure::Seam { seam: 0, .. })), "{failure:?}");

@@ -4,7 +4,8 @@
 
 use dvi_core::prelude::*;
 
-use super::{Outcome, larger, values_at};
+use super::problems::check_at;
+use super::{Outcome, values_at};
 
 /// Bodies on springs of constant force: the force jumps.
 #[lagrangian(coordinates(x[N]), lagrangian = sum(0..N, |i| dot(x[i]).powi(2) / 2.0 - x[i].abs()))]
@@ -58,31 +59,11 @@ struct Beads<const N: usize>;
 )]
 struct BeadsOneByOne;
 
-/// The control of a tolerance.
-fn control(tolerance: f64) -> ErrorControl<'static> {
-    ErrorControl::new(tolerance, 0.01)
-}
+const TOLERANCES: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
 
-/// Holds the errors against 30 tolerances, those of two stages against 200.
-macro_rules! check {
-    ($motion:expr, $end:expr, $exact:expr) => {
-        for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
-            let mut ends = vec![
-                (values_at($motion, (Gauss::<4>::new(), control(tolerance)), $end)?, 30.0),
-                (values_at($motion, (Gauss::<8>::new(), control(tolerance)), $end)?, 30.0),
-            ];
-            // For the last one two stages would take as many steps as for all others.
-            if tolerance > 1e-12 {
-                ends.push((values_at($motion, (Gauss::<2>::new(), control(tolerance)), $end)?, 200.0));
-            }
-            for (end, most) in ends {
-                let off =
-                    |(value, exact): (&f64, &f64)| (value - exact).abs() / (tolerance * (1.0 + exact.abs()));
-                let error = end.iter().zip(&$exact).map(off).fold(0.0, larger);
-                assert!(error < most, "{} at {tolerance:e}: {error}", stringify!($motion));
-            }
-        }
-    };
+/// By eight stages and a tolerance that is smaller than those.
+fn fine() -> (Gauss<8>, ErrorControl<'static>) {
+    (Gauss::<8>::new(), ErrorControl::new(1e-14, 0.01))
 }
 
 /// x and x' of a body that falls from `height` at rest, up and down a well.
@@ -98,11 +79,10 @@ fn in_a_well(height: f64, t: f64) -> [f64; 2] {
 fn errors_with_jumps_within_sums_are_within_thirty_tolerances() -> Outcome {
     let x = [1.0, 0.7, 1.9];
     let exact = [0, 1].map(|part| x.map(|height| in_a_well(height, 10.0)[part])).concat();
-    check!((&Wells::<3>, &WellsState { x, dot_x: [0.0; 3] }), 10.0, exact);
+    check_at(&TOLERANCES, &[], (&Wells::<3>, &WellsState { x, dot_x: [0.0; 3] }), (10.0, &exact))?;
     let (x, dot_x) = ([1.0, -0.8, 0.6], [0.1, 0.2, -0.1]);
-    let fine = (Gauss::<8>::new(), control(1e-14));
-    let exact = values_at((&RubbedOneByOne, &RubbedOneByOneState { x, dot_x }), fine, 10.0)?;
-    check!((&Rubbed::<3>, &RubbedState { x, dot_x }), 10.0, exact);
+    let exact = values_at((&RubbedOneByOne, &RubbedOneByOneState { x, dot_x }), fine(), 10.0)?;
+    check_at(&TOLERANCES, &[], (&Rubbed::<3>, &RubbedState { x, dot_x }), (10.0, &exact))?;
     Ok(())
 }
 
@@ -110,11 +90,10 @@ fn errors_with_jumps_within_sums_are_within_thirty_tolerances() -> Outcome {
 fn errors_with_kinks_within_sums_are_within_thirty_tolerances() -> Outcome {
     let r = [[1.0, 0.0], [-0.8, 0.3], [0.1, 1.1]];
     let dot_r = [[-0.5, 0.1], [0.5, -0.2], [0.0, -0.6]];
-    let fine = (Gauss::<8>::new(), control(1e-14));
-    let exact = values_at((&SpringsOneByOne, &SpringsOneByOneState { r, dot_r }), fine, 8.0)?;
-    check!((&Springs::<3>, &SpringsState { r, dot_r }), 8.0, exact);
+    let exact = values_at((&SpringsOneByOne, &SpringsOneByOneState { r, dot_r }), fine(), 8.0)?;
+    check_at(&TOLERANCES, &[], (&Springs::<3>, &SpringsState { r, dot_r }), (8.0, &exact))?;
     let (x, dot_x) = ([0.6, 1.5, 2.6], [1.0, 0.3, -0.7]);
-    let exact = values_at((&BeadsOneByOne, &BeadsOneByOneState { x, dot_x }), fine, 5.0)?;
-    check!((&Beads::<3>, &BeadsState { x, dot_x }), 5.0, exact);
+    let exact = values_at((&BeadsOneByOne, &BeadsOneByOneState { x, dot_x }), fine(), 5.0)?;
+    check_at(&TOLERANCES, &[], (&Beads::<3>, &BeadsState { x, dot_x }), (5.0, &exact))?;
     Ok(())
 }
