@@ -1,7 +1,6 @@
 //! Constraints: what the attribute makes of them.
 
 mod declarations;
-mod nonholonomic;
 mod systems;
 
 use dvi_tests::Outcome;

@@ -1,7 +1,5 @@
 //! How steps with constraints fail.
 
-use dvi_core::error::StartError;
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::constrained::*;
 

@@ -1,6 +1,5 @@
 //! Coordinates that are light against the others, and systems far from the origin.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::{Numbers, larger};
 

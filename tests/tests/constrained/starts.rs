@@ -1,7 +1,6 @@
 //! Where runs with constraints can begin, and what is said where they cannot.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq, relative_eq};
-use dvi_core::error::StartError;
+use approx::{abs_diff_eq, relative_eq};
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 use dvi_tests::zoo::constrained::*;
@@ -231,7 +230,7 @@ fn redundant_constraints_of_a_chain_are_named() {
 
 /// The tension of a rod, m (v²/l + g cos a) at the angle a from below.
 #[test]
-fn multipliers_and_accelerations_at_a_state_in_closed_form() -> Outcome {
+fn multipliers_at_a_state_in_closed_form() -> Outcome {
     let system = Pendulum { m: 1.7, g: 2.0, length: 1.3 };
     for (a, speed) in [(0.3_f64, 0.7), (2.0, -1.1), (-1.0, 0.0)] {
         let (sin, cos) = a.sin_cos();
@@ -240,23 +239,7 @@ fn multipliers_and_accelerations_at_a_state_in_closed_form() -> Outcome {
         let multipliers = system.multipliers_at(0.0, &state)?;
         // The force of the rod is 2λ(x, y).
         assert!((multipliers[0] + tension / 2.6).abs() < 1e-14, "{}", multipliers[0]);
-        let PendulumState { dot_x, dot_y, .. } = system.vector_field(0.0, &state)?;
-        let [outward, along] = [-speed * speed / 1.3, -2.0 * sin];
-        assert_abs_diff_eq!(dot_x, (outward * sin + along * cos), epsilon = 1e-14);
-        assert_abs_diff_eq!(dot_y, (-outward * cos + along * sin), epsilon = 1e-14);
     }
-    // A moved pivot: with its time derivatives.
-    let (swing, t) = (Swing { gamma: 0.3 }, 0.8);
-    let angle = SwingAngleState { a: 0.7, dot_a: -0.4 };
-    let state = swinging(&angle, t);
-    let rates = swing.vector_field(t, &state)?;
-    let of_angle = SwingAngle { gamma: 0.3 }.vector_field(t, &angle)?;
-    let (sin, cos) = angle.a.sin_cos();
-    let expected = [
-        -1.2 * (2.0 * t).sin() + of_angle.dot_a * cos - angle.dot_a.powi(2) * sin,
-        of_angle.dot_a * sin + angle.dot_a.powi(2) * cos,
-    ];
-    assert!((rates.dot_x - expected[0]).abs() < 1e-14 && (rates.dot_y - expected[1]).abs() < 1e-14);
     Ok(())
 }
 

@@ -3,20 +3,20 @@
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::{
-    ConstrainedSystem, Fixed, HolonomicLagrangian, IndexError, NondegenerateLagrangian, RunTime, Space,
+    ConstrainedSystem, Fixed, IndexError, NonholonomicLagrangian, RunTime, ScalarField, Space, Varied,
 };
-use dvi_core::{Lagrangian, ScalarField, Varied};
 use dvi_tests::filling;
 use num_dual::Dual64;
 
 use super::Outcome;
-use super::systems::{Beads, Chain, Driven, Hung, Linked, Three, surface};
+use super::systems::{Beads, Chain, Disc, Driven, Hung, Linked, Ring, Three, Train, surface};
 use dvi_tests::zoo::constrained::Pendulum;
+use dvi_tests::zoo::nonholonomic::KnifeEdge;
 
 const PENDULUM: Pendulum = Pendulum { m: 1.0, g: 9.81, length: 1.3 };
 
 /// Numbers that have nothing to do with each other.
-pub(super) fn point(n: usize, seed: f64) -> Vec<f64> {
+fn point(n: usize, seed: f64) -> Vec<f64> {
     (0..n).map(|i| 0.9 * (seed + 1.7 * i as f64).sin() + 0.05).collect()
 }
 
@@ -32,7 +32,7 @@ fn generated<S: HolonomicLagrangian>(system: &S, q: &[f64], v: &[f64], t: f64) -
     [g, curvature]
 }
 
-pub(super) fn close(found: &[f64], expected: &[f64], what: &str) {
+fn close(found: &[f64], expected: &[f64], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
         assert!(
@@ -56,6 +56,13 @@ fn spaces_are_fixed_where_stable_rust_can_count() {
     assert_eq!((system.multipliers(), system.augmented()), (run_time(1 + 4 + 2 + 2 + 1), run_time(20)));
     let system = Hung { rods: vec![1.0] };
     assert_eq!((system.multipliers(), system.augmented()), (run_time(5), run_time(9)));
+    // Of velocities.
+    is(&KnifeEdge { m: 1.0, inertia: 1.0, slope: 0.0 }, Fixed::<1, 1>::new(), Fixed::<1, 4>::new());
+    is(&Disc { radius: 1.0 }, Fixed::<1, 2>::new(), Fixed::<1, 6>::new());
+    is(&Ring::<5>, Fixed::<1, 5, 0, _>::new(), Fixed::<3, 5, 0, _>::new());
+    let train = |sledges: usize| Train { headings: vec![0.0; sledges] };
+    is(&train(4), run_time(4 + 1 + 2), run_time(16));
+    assert_eq!(train(1).multipliers(), run_time(1 + 1));
 }
 
 #[test]
@@ -76,39 +83,45 @@ fn indices_of_constraints_are_checked_against_their_arrays() {
 }
 
 #[test]
-fn the_time_in_a_constraint_is_seen() {
-    const { assert!(Pendulum::AUTONOMOUS && !Driven::AUTONOMOUS && !Hung::AUTONOMOUS && Three::AUTONOMOUS) };
-}
-
-#[test]
-fn structure_is_that_of_the_lagrangian() {
+fn structure_is_that_of_the_lagrangian_and_the_time_in_a_constraint_is_seen() {
     const { assert!(<Pendulum as NondegenerateLagrangian>::SEPARABLE) };
+    const { assert!(<KnifeEdge as NondegenerateLagrangian>::SEPARABLE) };
     const { assert!(!<Driven as NondegenerateLagrangian>::CONSTANT_MASS) };
+    const { assert!(!<Train as NondegenerateLagrangian>::CONSTANT_MASS) };
+    const { assert!(Pendulum::AUTONOMOUS && Three::AUTONOMOUS && KnifeEdge::AUTONOMOUS) };
+    const { assert!(!Driven::AUTONOMOUS && !Hung::AUTONOMOUS && Disc::<f64>::AUTONOMOUS) };
+    const { assert!(!Train::AUTONOMOUS && !Ring::<3>::AUTONOMOUS) };
 }
 
 #[test]
 fn reports_name_the_constraints() {
-    let text = Pendulum::REPORT.to_string();
-    for line in ["constraint g[0] = ", "∂g[0]/∂x = 2·x", "1 holonomic constraint g(q, t) = 0."] {
-        assert!(text.contains(line), "{line}\n{text}");
+    fn says(report: &dvi_core::Report, lines: &[&str]) {
+        let text = report.to_string();
+        assert!(lines.iter().all(|line| text.contains(line)), "{lines:?}\n{text}");
     }
-    let text = Chain::<2>::REPORT.to_string();
-    for line in
-        ["constraint g[i] = ", "  for i in 0..N - 1", "∂g[i]/∂x[i + 1] = ", "N - 1 holonomic constraints"]
-    {
-        assert!(text.contains(line), "{line}\n{text}");
-    }
-    let text = Hung::REPORT.to_string();
-    assert!(
-        text.contains("2·rods.len() + 2 holonomic constraints g(q, t) = 0, where no range is empty."),
-        "{text}"
+    says(
+        &Pendulum::REPORT,
+        &["constraint g[0] = ", "∂g[0]/∂x = 2·x", "1 holonomic constraint g(q, t) = 0."],
     );
-    let text = Linked::<2>::REPORT.to_string();
-    assert!(
-        text.contains("constraint g[i + 2] = ") && text.contains("N + 2 holonomic constraints"),
-        "{text}"
+    says(
+        &Chain::<2>::REPORT,
+        &["constraint g[i] = ", "  for i in 0..N - 1", "∂g[i]/∂x[i + 1] = ", "N - 1 holonomic constraints"],
     );
-    assert!(!text.contains("Variational::trapezoid"), "{text}");
+    let empty = "2·rods.len() + 2 holonomic constraints g(q, t) = 0, where no range is empty.";
+    says(&Hung::REPORT, &[empty]);
+    says(&Linked::<2>::REPORT, &["constraint g[i + 2] = ", "N + 2 holonomic constraints"]);
+    assert!(!Linked::<2>::REPORT.to_string().contains("Variational::trapezoid"));
+    says(
+        &KnifeEdge::REPORT,
+        &[
+            "constraint a[0] = ",
+            "∂a[0]/∂angle = dot(x)·cos(angle) + dot(y)·sin(angle)",
+            "∂a[0]/∂dot(x) = sin(angle)",
+            "1 nonholonomic constraint a(q, v, t) = 0.",
+            "Begin with `Constrained::new(Midpoint)`",
+        ],
+    );
+    says(&Train::REPORT, &["  for i in 0..headings.len()", "2·headings.len() - 1 nonholonomic constraints"]);
 }
 
 /// A rod whose length is a parameter of any type of numbers.
@@ -124,6 +137,12 @@ fn constraints_have_derivatives_by_parameters() {
     let q = [Dual64::from_re(2.0), Dual64::from_re(1.0)];
     system.constraint(&q, Dual64::from_re(0.0), &mut g);
     assert_eq!((g[0].re, g[0].eps), (2.75, -3.0));
+
+    let system = Disc { radius: Varied(Dual64::from_re(1.5).derivative()) };
+    let mut a = [Dual64::from_re(0.0); 2];
+    let v = [0.0, 0.0, 2.0, 0.0].map(Dual64::from_re);
+    system.velocity_constraint(&[0.0; 4].map(Dual64::from_re), &v, Dual64::from_re(0.0), &mut a);
+    assert_eq!((a[0].re, a[0].eps, a[1].re), (-3.0, -2.0, 0.0));
 }
 
 /// Neither a loop of its own nor those of the sums in it run where a family is empty.

@@ -66,6 +66,42 @@ pub(crate) struct Hung {
 #[derive(Clone, Debug)]
 pub(crate) struct Linked<const N: usize>;
 
+/// A disc that rolls upright on a plane, with a force and a parameter of any type of numbers.
+#[lagrangian(
+    coordinates(x, y, theta, phi),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + dot(theta).powi(2) / 4.0 + dot(phi).powi(2) / 8.0,
+    force(theta) = -0.1 * dot(theta),
+    nonholonomic = [dot(x) - radius * dot(theta) * phi.cos(), dot(y) - radius * dot(theta) * phi.sin()],
+)]
+#[derive(Clone, Debug)]
+pub(crate) struct Disc<P> {
+    pub(crate) radius: P,
+}
+
+/// A train of sledges on ice that turns under them: families before and behind single constraints, whose
+/// sums stand in both, and the time.
+#[lagrangian(
+    coordinates(x[headings.len()], y[headings.len()], w),
+    lagrangian = sum(0..headings.len(), |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 + (1.0 + w * w) * dot(w).powi(2),
+    nonholonomic(i in 0..headings.len()) =
+        dot(x[i]) * (headings[i] + t * w).sin() - dot(y[i]) * (headings[i] + t * w).cos(),
+    nonholonomic = dot(w) - sum(0..headings.len(), |j| x[j] * dot(y[j]) - (j as f64) * t.powi(2)),
+    nonholonomic(k in 1..headings.len() - 1) = (x[k] - x[k - 1]) * (dot(x[k]) - dot(x[k - 1])) + t * dot(w) * y[k + 1].exp(),
+)]
+#[derive(Clone, Debug)]
+pub(crate) struct Train {
+    pub(crate) headings: Vec<f64>,
+}
+
+/// As many constraints as particles, of const number.
+#[lagrangian(
+    coordinates(x[N], y[N]),
+    lagrangian = sum(0..N, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0,
+    nonholonomic(i in 0..N) = if x[i] > 0.0 { dot(y[i]) - x[i] * dot(x[(i + 1) % N]) } else { dot(x[i]) + t },
+)]
+#[derive(Clone, Debug)]
+pub(crate) struct Ring<const N: usize>;
+
 /// A bead on a surface that is given by a table.
 #[lagrangian(
     coordinates(x, y, z),
