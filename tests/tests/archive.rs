@@ -7,9 +7,7 @@ mod same;
 use std::path::PathBuf;
 
 use dvi_core::archive::{Archive, ArchiveError, Every};
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::run::StepControl;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use dvi_tests::{Outcome, bits};
 

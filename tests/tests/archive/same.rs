@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use dvi_core::methods::VariableStep;
+use dvi_examples::osculating::Osculating;
 use dvi_tests::Numbers;
 use dvi_tests::configurations::leapfrogging;
 
@@ -73,20 +74,23 @@ fn states_are_computed_again_bit_for_bit() -> Outcome {
 
 #[test]
 fn so_are_those_of_controlled_steps() -> Outcome {
-    let start = KeplerState { x: 0.2, y: 0.0, dot_x: 0.0, dot_y: 3.0 };
-    let reversible = Reversible::power(0.05, 1.5);
-    check("reversible", Every::Steps(50), 400, || {
-        Integrator::controlled(Kepler { mu: 1.0 }, Variational::trapezoid(), reversible, start)
-    })?;
-    let control = EnergyMomentum::new(0.05);
-    let planet = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.8 };
-    check("energy-momentum", Every::Steps(40), 170, || {
-        Integrator::controlled(Kepler { mu: 1.0 }, Variational::midpoint(), control, planet)
-    })?;
-    let control = ErrorControl::new(1e-8, 0.01);
-    check("error-control", Every::Steps(33), 200, || {
-        Integrator::controlled(Kepler { mu: 1.0 }, Gauss::<3>::new(), control, start)
-    })
+    fn of<M, C>(name: &str, every: u64, (method, control): (M, C), x: f64, dot_y: f64) -> Outcome
+    where
+        M: VariableStep<Kepler, f64> + Clone + core::fmt::Debug,
+        C: StepControl<Kepler, f64> + Clone,
+    {
+        let start = KeplerState { x, y: 0.0, dot_x: 0.0, dot_y };
+        let begin = || Integrator::controlled(Kepler { mu: 1.0 }, method.clone(), control.clone(), start);
+        check(name, Every::Steps(every), 5 * every, begin)
+    }
+    let verlet = Variational::trapezoid();
+    of("reversible", 80, (verlet, Reversible::power(0.05, 1.5)), 0.2, 3.0)?;
+    of("energy-momentum", 35, (Variational::midpoint(), EnergyMomentum::new(0.05)), 1.0, 0.8)?;
+    of("error-control", 40, (Gauss::<4>::new().in_lanes(), ErrorControl::new(1e-8, 0.01)), 0.2, 3.0)?;
+    let limited = EnergyLimit { method: Gauss::<2>::new(), limit: 1.0 };
+    of("limited", 40, (limited, ErrorControl::new(1e-5, 0.5)), 0.5, 3.0_f64.sqrt())?;
+    let fitted = Variational::simpson().phase_fitted(Curvature(Reading::LeftFrozen));
+    of("osculating", 40, (fitted, Osculating::new(1e-3, 0.01)), 0.5, 3.0_f64.sqrt())
 }
 
 /// How often checkpoints are kept, and in how many parts steps are taken, changes no bit.
