@@ -6,10 +6,9 @@ use core::f64::consts::{PI, TAU};
 use dvi_core::methods::{Carries, VariableStep};
 use dvi_core::prelude::*;
 use dvi_core::run::ControlledRun;
-use dvi_tests::Outcome;
 use dvi_tests::configurations::chaotic;
 use dvi_tests::zoo::regular::*;
-use dvi_tests::{apart, larger};
+use dvi_tests::{Outcome, apart, larger};
 
 mod breaks;
 mod grazes;
@@ -81,15 +80,18 @@ fn estimates<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
     method: M,
     start: &S::State<f64>,
     [end, tolerance]: [f64; 2],
-    fine: impl Fn(S::State<f64>, [f64; 2]) -> Outcome<Vec<f64>>,
-) -> Outcome<[f64; 2]> {
+) -> Outcome<[f64; 2]>
+where
+    Gauss<8>: Method<S, f64>,
+{
     let mut run = Integrator::controlled(system, method, ErrorControl::new(tolerance, 0.01), start.clone())?;
     let mut range = [f64::INFINITY, 0.0];
     while run.time() < end {
         let (before, t) = (run.state(), run.time());
         run.advance()?;
-        let exact = fine(before, [t, run.step_size()])?;
-        let errors = run.q().iter().zip(&exact);
+        let mut fine = Integrator::new_at(system, Gauss::<8>::new(), t, run.step_size() / 2.0, before)?;
+        fine.take_steps(2)?;
+        let errors = run.q().iter().zip(fine.q());
         let error = errors.fold(0.0, |most, (q, exact)| {
             larger(most, (q - exact).abs() / (tolerance * (1.0 + exact.abs())))
         });
@@ -105,32 +107,22 @@ fn estimates<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
 #[test]
 fn estimates_are_near_the_error_of_a_step() -> Outcome {
     let (vortices, start) = chaotic();
-    let of_vortices = |before, [t, h]: [f64; 2]| {
-        let mut fine = Integrator::new_at(&vortices, Gauss::<8>::new(), t, h / 2.0, before)?;
-        fine.take_steps(2)?;
-        Ok(fine.q().to_vec())
-    };
-    let of_kepler = |before, [t, h]: [f64; 2]| {
-        let mut fine = Integrator::new_at(&KEPLER, Gauss::<8>::new(), t, h / 2.0, before)?;
-        fine.take_steps(2)?;
-        Ok(fine.q().to_vec())
-    };
     for [least, most] in [
-        estimates(&vortices, Gauss::<2>::new(), &start, [20.0, 1e-7], of_vortices)?,
-        estimates(&vortices, Gauss::<8>::new(), &start, [20.0, 1e-7], of_vortices)?,
-        estimates(&KEPLER, Gauss::<1>::new(), &pericentre(0.5), [TAU, 1e-6], of_kepler)?,
-        estimates(&KEPLER, Gauss::<8>::new(), &pericentre(0.9), [TAU, 1e-7], of_kepler)?,
+        estimates(&vortices, Gauss::<2>::new(), &start, [20.0, 1e-7])?,
+        estimates(&vortices, Gauss::<8>::new(), &start, [20.0, 1e-7])?,
+        estimates(&KEPLER, Gauss::<1>::new(), &pericentre(0.5), [TAU, 1e-6])?,
+        estimates(&KEPLER, Gauss::<8>::new(), &pericentre(0.9), [TAU, 1e-7])?,
     ] {
         assert!(least > 2e-3 && most < 8.0, "{least:e} {most:e}");
     }
     Ok(())
 }
 
-/// Steps of one length, before each of which a longer one is taken back.
+/// Steps of one length, before each of which a longer one is taken back, or is resonant.
 #[derive(Clone, Copy, Debug)]
-struct Detour {
-    h: f64,
-    long: Option<f64>,
+pub(crate) struct Detour {
+    pub(crate) h: f64,
+    pub(crate) long: Option<f64>,
 }
 
 impl<S: System> Carries<S, f64> for Detour {
@@ -151,9 +143,14 @@ impl<S: Lagrangian> StepControl<S, f64> for Detour {
     ) -> Result<f64, StepFailure> {
         if let Some(long) = self.long {
             let tolerance = Tolerance { relative: 1e-9, absolute: 0.0 };
-            run.step(t, long)?;
-            assert!(run.local_error(t, [long, self.h], tolerance)? > 0.0);
-            run.go_back();
+            match run.step(t, long) {
+                Ok(()) => {
+                    let error = run.local_error(t, [long, self.h], tolerance)?;
+                    assert!(error > 0.0 && error.is_finite(), "{error}");
+                    run.go_back();
+                }
+                Err(failure) => assert!(matches!(failure, StepFailure::Resonance { .. }), "{failure}"),
+            }
         }
         run.step(t, self.h).map(|()| self.h)
     }
@@ -221,23 +218,18 @@ fn a_head_on_collision_ends_with_an_error_at_the_last_good_state() -> Outcome {
 
 #[test]
 fn options_and_methods_out_of_range_are_refused() {
-    let refusal = |relative, absolute, first_step| {
-        let control = ErrorControl {
-            tolerance: Tolerance { relative, absolute },
-            ..ErrorControl::new(1.0, first_step)
-        };
+    let refusal = |relative, absolute| {
+        let control =
+            ErrorControl { tolerance: Tolerance { relative, absolute }, ..ErrorControl::new(1.0, 0.1) };
         Integrator::controlled(&KEPLER, Gauss::<2>::new(), control, pericentre(0.5)).err()
     };
     for relative in [0.0, -1.0, 1e-17, f64::NAN, f64::INFINITY] {
-        let error = refusal(relative, 0.0, 0.1);
+        let error = refusal(relative, 0.0);
         assert!(matches!(error, Some(StartError::Parameter { name: "relative", .. })), "{error:?}");
     }
     for absolute in [-1.0, f64::NAN, f64::INFINITY] {
-        let error = refusal(1e-3, absolute, 0.1);
+        let error = refusal(1e-3, absolute);
         assert!(matches!(error, Some(StartError::Parameter { name: "absolute", .. })), "{error:?}");
-    }
-    for h in [0.0, f64::INFINITY] {
-        assert_eq!(refusal(1e-3, 0.0, h), Some(StartError::Step { h }));
     }
     for longest_step in [0.0, -1.0, f64::NAN] {
         let control = ErrorControl { longest_step, ..ErrorControl::new(1e-3, 0.1) };

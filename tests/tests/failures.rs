@@ -3,7 +3,6 @@
 mod said;
 mod starts;
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};

@@ -1,12 +1,11 @@
 //! Galerkin's methods: what is refused, what a step costs, steps of different lengths, and nine nodes.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
+use approx::assert_abs_diff_eq;
 use core::f64::consts::{PI, TAU};
 use dvi_core::Space;
 use dvi_core::discrete::Frequency;
-use dvi_core::methods::{Method, Step};
+use dvi_core::methods::Step;
 use dvi_core::prelude::*;
-use dvi_core::state::Statistics;
 use dvi_examples::models::{Bodies, BodiesState};
 use dvi_tests::zoo::regular::*;
 use dvi_tests::{Outcome, apart, larger};
@@ -39,13 +38,6 @@ fn what_cannot_be_done_is_refused() {
     assert!(matches!(failure, Some(StartError::Starter(StepFailure::Resonance { .. }))), "{failure:?}");
     let failure = Integrator::new(&KEPLER, method.phase_fitted(Constant(-1.0)), 1.0, pericentre(0.3)).err();
     assert!(matches!(failure, Some(StartError::Parameter { name: "omega", .. })), "{failure:?}");
-    let collision = KeplerState { x: 0.0, y: 0.0, dot_x: 1.0, dot_y: 0.0 };
-    let failure = Integrator::new(&KEPLER, method, 0.1, collision).err();
-    assert!(
-        matches!(failure, Some(StartError::Undefined { quantity: "the force ∂L/∂q", coordinate: Some(x), value })
-            if x.to_string() == "x" && value.is_nan()),
-        "{failure:?}"
-    );
 }
 
 #[test]
@@ -54,20 +46,6 @@ fn newton_stands_by() -> Outcome {
     let mut stiff = Integrator::new(&system, Galerkin::<4>::new(), 0.5, start)?;
     stiff.take_steps(20)?;
     assert!(stiff.statistics().factorisations > 0);
-    Ok(())
-}
-
-#[test]
-fn single_precision_steps_to_its_own_rounding() -> Outcome {
-    let start = KeplerState { x: 1.0, y: 0.1, dot_x: -0.2, dot_y: 1.1 };
-    let narrow = KeplerStateOf { x: 1.0_f32, y: 0.1, dot_x: -0.2, dot_y: 1.1 };
-    let mut single = Integrator::new(&KEPLER, Galerkin::<5>::new(), 0.1_f32, narrow)?;
-    let mut double = Integrator::new(&KEPLER, Galerkin::<5>::new(), 0.1, start)?;
-    single.take_steps(50)?;
-    double.take_steps(50)?;
-    for (a, b) in single.q().iter().zip(double.q()) {
-        assert!(abs_diff_eq!(f64::from(*a), b, epsilon = 1e-4), "{a} and {b}");
-    }
     Ok(())
 }
 
@@ -95,10 +73,8 @@ fn check_variable<S: RegularLagrangian, const NODES: usize>(
 
 #[test]
 fn steps_of_different_lengths_may_follow_one_another() -> Outcome {
-    check_variable(&KEPLER, Galerkin::<4>::new(), [&[1.0, 0.1], &[-0.2, 1.1]])?;
     check_variable(&KEPLER, Galerkin::<9>::new(), [&[1.0, 0.1], &[-0.2, 1.1]])?;
     check_variable(&PENDULUMS, Galerkin::<4>::new(), [&[1.1, -0.4], &[0.3, 0.9]])?;
-    check_variable(&PENDULUMS, Galerkin::<9>::new(), [&[1.1, -0.4], &[0.3, 0.9]])?;
     let chain = RunTimeChain { mass: vec![1.0, 1.5, 0.7], coupling: 0.2 };
     check_variable(&chain, Galerkin::<9>::new(), [&[0.1, -0.2, 0.4, 0.3], &[0.5, 0.0, -0.1, 0.2]])
 }

@@ -34,7 +34,6 @@ mod manifold;
 mod many_coordinates;
 mod many_steps;
 mod networks;
-mod newmark;
 mod nonholonomic;
 mod one_step;
 mod orders;

@@ -6,7 +6,6 @@ use dvi_core::{ProperlyDegenerate, Space};
 use dvi_examples::models::{TokamakInClass, TokamakInClassState};
 use dvi_tests::Outcome;
 use dvi_tests::laws::systems::{Belt, Mixed};
-use dvi_tests::systems::{SphereForm, SphereFormState};
 use dvi_tests::zoo::gauges::OneSided;
 
 const PREY: OneSided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
@@ -42,15 +41,6 @@ fn a_formula_that_leaves_its_domain_is_no_singular_form() -> Outcome {
     }
     assert!(failures > 10, "{failures}");
     Ok(())
-}
-
-#[test]
-fn a_form_that_is_zero_is_refused() {
-    // −γ z dφ: ∂ϑ/∂z is zero for γ = 0.
-    let none = SphereForm { gamma: 0.0 };
-    let start = SphereFormState { phi: 0.4, z: 0.3 };
-    let error = Integrator::new(&none, OneStep::midpoint(), 0.1, start).err();
-    assert!(matches!(error, Some(StartError::Singular { matrix: "Ω = −dα", .. })), "{error:?}");
 }
 
 /// The class is seen wherever the indices of an array of literal size can be enumerated.

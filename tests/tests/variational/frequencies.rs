@@ -1,6 +1,7 @@
 //! Frequencies of the user's own, and steps that failed because of a frequency.
 
 use super::Outcome;
+use crate::error_control::Detour;
 use dvi_core::discrete::Frequency;
 use dvi_core::prelude::*;
 use dvi_core::{Real, Scalar};
@@ -98,39 +99,11 @@ fn a_curvature_is_read_from_rest() -> Outcome {
 fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
     let method = Variational::simpson().phase_fitted(Constant(2.0));
     let start = PlanarState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
-    // A control that tries the resonant step before each of its own.
-    #[derive(Debug)]
-    struct Trying {
-        tries: bool,
-    }
-    impl dvi_core::methods::Carries<Planar, f64> for Trying {
-        type Memory = ();
-    }
-    impl dvi_core::run::StepControl<Planar, f64> for Trying {
-        type Suited<C> = C;
-        const REJECTS: bool = true;
-        fn begin(&self, _system: &Planar, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
-            Ok(((), 0.1))
-        }
-        fn step<M: Method<Planar, f64>>(
-            &self,
-            _memory: &mut (),
-            run: &mut dvi_core::run::ControlledRun<'_, Planar, M, f64>,
-            t: f64,
-        ) -> Result<f64, StepFailure> {
-            if self.tries {
-                let tried = run.step(t, core::f64::consts::FRAC_PI_2);
-                assert!(matches!(tried, Err(StepFailure::Resonance { .. })), "{tried:?}");
-            }
-            run.step(t, 0.1)?;
-            Ok(0.1)
-        }
-    }
-    let end = |tries| -> Outcome<[f64; 2]> {
-        let mut run = Integrator::controlled(&PLANE, method, Trying { tries }, start)?;
+    let end = |long| -> Outcome<[f64; 2]> {
+        let mut run = Integrator::controlled(&PLANE, method, Detour { h: 0.1, long }, start)?;
         run.take_steps(200)?;
         Ok([run.q()[0], run.q()[1]])
     };
-    assert_eq!(end(true)?, end(false)?);
+    assert_eq!(end(Some(core::f64::consts::FRAC_PI_2))?, end(None)?);
     Ok(())
 }
