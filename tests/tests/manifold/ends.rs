@@ -1,7 +1,6 @@
 //! Starts and steps that are none, sizes that are known at run time, and what is generated.
 
 use approx::assert_abs_diff_eq;
-use dvi_core::error::{StartError, StepFailure};
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_examples::models::{SphericalPendulum, SphericalPendulumState, SphericalPendulumStateOf};
