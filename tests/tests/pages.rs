@@ -62,9 +62,9 @@ fn the_readme_shows_what_the_first_program_prints() {
     coordinates(angle),
     lagrangian = dot(angle).powi(2) / 2.0 + g / length * angle.cos(),
 )]
-struct Pendulum {
-    g: f64,
-    length: f64,
+pub(crate) struct Pendulum {
+    pub(crate) g: f64,
+    pub(crate) length: f64,
 }
 
 #[test]
