@@ -1,56 +1,55 @@
 //! Derivatives at points where the rules of differentiation give 0/0, against limits found by hand.
 
 use approx::relative_eq;
+use dvi_core::Weights;
 use dvi_core::prelude::*;
-use dvi_core::{Space, Weights};
 use dvi_tests::filling;
 
-type Outcome = Result<(), String>;
-
-/// ∇H and ∂²H/∂q∂q at the origin of the plane.
-fn at_origin<S: DegenerateLagrangian>(system: &S) -> ([f64; 2], [f64; 4]) {
-    let (_, first, second) = at_point(system, [0.0; 2]);
-    (first, second)
-}
-
-/// H, ∇H and ∂²H/∂q∂q at a point of the plane.
-pub(super) fn at_point<S: DegenerateLagrangian>(system: &S, point: [f64; 2]) -> (f64, [f64; 2], [f64; 4]) {
-    let space = system.space();
-    let (mut q, v) = (space.vector::<f64>(), space.vector::<f64>());
-    q.copy_from_slice(&point);
-    let (mut gradient, mut momentum) = (space.vector::<f64>(), space.vector::<f64>());
-    let mut matrix = space.matrix::<f64>();
+/// ∂L/∂q and ∂²L/∂q∂q.
+fn position_derivatives<S: Lagrangian, const N: usize>(system: &S, q: [f64; N]) -> ([f64; N], Vec<f64>) {
+    let (mut gradient, mut momentum, mut matrix) = ([0.0; N], [0.0; N], vec![0.0; N * N]);
     let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-    system.linearize(&q, &v, 0.0, weights, &mut gradient, &mut momentum, &mut matrix);
-    // L = α·v − H with v = 0.
-    let second = core::array::from_fn(|k| -matrix[k]);
-    system.hamiltonian_gradient(&q, 0.0, &mut gradient);
-    (system.hamiltonian(&q, 0.0), [gradient[0], gradient[1]], second)
+    let at_rest = [0.0; N];
+    system.linearize(&q, &at_rest, 0.0, weights, &mut gradient, &mut momentum, &mut filling(&mut matrix, N));
+    (gradient, matrix)
 }
 
-/// Each: a name, H(x, y), and its second derivatives at the origin, row by row; the first are zero.
-macro_rules! limits {
-    ($($name:ident: $hamiltonian:expr => $second:expr;)*) => {
+/// ∇H and ∂²H/∂q∂q at a point: L = α·v − H with v = 0.
+pub(super) fn at_point<S: DegenerateLagrangian, const N: usize>(
+    system: &S,
+    q: [f64; N],
+) -> ([f64; N], Vec<f64>) {
+    let (mut gradient, (_, matrix)) = ([0.0; N], position_derivatives(system, q));
+    system.hamiltonian_gradient(&q, 0.0, &mut gradient);
+    (gradient, matrix.iter().map(|entry| -entry).collect())
+}
+
+/// The first derivatives at the origin are zero, and the second ones these, which may be no numbers.
+#[track_caller]
+fn assert_at_origin<const N: usize>(hamiltonian: &str, found: ([f64; N], Vec<f64>), second: &[f64]) {
+    let is_same = |(a, b): (&f64, &f64)| a == b || a.is_nan() && b.is_nan();
+    let is_right = found.0 == [0.0; N] && found.1.iter().zip(second).all(is_same);
+    assert!(is_right && found.1.len() == second.len(), "{hamiltonian}: {found:?}");
+}
+
+/// Of coordinates, α and the number of coordinates: a name, H, and its second derivatives at the origin, row
+/// by row.
+macro_rules! at_the_origin {
+    ($test:ident, $coordinates:tt, $form:expr, $n:literal; $($name:ident: $hamiltonian:expr => $second:expr;)+) => {
         $(
-            #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = $hamiltonian)]
+            #[degenerate_lagrangian(coordinates $coordinates, one_form = $form, hamiltonian = $hamiltonian)]
             struct $name;
-        )*
+        )+
 
         #[test]
-        fn derivatives_at_the_origin_are_limits() -> Outcome {
-            $(
-                let (first, second) = at_origin(&$name);
-                let expected: [f64; 4] = $second;
-                if first != [0.0; 2] || second != expected {
-                    return Err(format!("{}: {first:?}, {second:?}", stringify!($hamiltonian)));
-                }
-            )*
-            Ok(())
+        fn $test() {
+            $(assert_at_origin(stringify!($hamiltonian), at_point(&$name, [0.0; $n]), &$second);)+
         }
     };
 }
 
-limits! {
+at_the_origin! {
+    derivatives_at_the_origin_are_limits, (x, y), y * d(x), 2;
     PowerOfX: x.powf(1.5) * x.powf(1.5) + y * y => [0.0, 0.0, 0.0, 2.0];
     Cube: (x * x + y * y).powf(1.5) => [0.0; 4];
     SquareOfHypot: x.hypot(y).powi(2) => [2.0, 0.0, 0.0, 2.0];
@@ -72,34 +71,25 @@ limits! {
     PowerThatVaries: y * y - x.powf(2 + y) => [-2.0, 0.0, 0.0, 2.0];
 }
 
-/// The first derivative alone has a limit that the compiler finds; the second is not a number, never another
-/// number.
-macro_rules! first_limits {
-    ($($name:ident: $hamiltonian:expr;)*) => {
-        $(
-            #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = $hamiltonian)]
-            struct $name;
-        )*
-
-        #[test]
-        fn second_derivatives_without_a_limit_are_no_numbers() -> Outcome {
-            $(
-                let (first, second) = at_origin(&$name);
-                if first != [0.0; 2] || !second[0].is_nan() || !second[3].is_nan() {
-                    return Err(format!("{}: {first:?}, {second:?}", stringify!($hamiltonian)));
-                }
-            )*
-            Ok(())
-        }
-    };
+// The first derivative alone has a limit that the compiler finds; the second is not a number, never another
+// number.
+at_the_origin! {
+    second_derivatives_without_a_limit_are_no_numbers, (x, y), y * d(x), 2;
+    Cosine: x.hypot(y).cos() => [f64::NAN; 4];
+    HyperbolicCosine: x.hypot(y).cosh() => [f64::NAN; 4];
+    CosineOfRoot: (x * x + y * y).sqrt().cos() => [f64::NAN; 4];
+    ThreeQuarters: (x * x + y * y).powf(0.75) => [f64::NAN; 4];
+    RootOfThreeHalves: x.hypot(y).powf(1.5) => [f64::NAN; 4];
 }
 
-first_limits! {
-    Cosine: x.hypot(y).cos();
-    HyperbolicCosine: x.hypot(y).cosh();
-    CosineOfRoot: (x * x + y * y).sqrt().cos();
-    ThreeQuarters: (x * x + y * y).powf(0.75);
-    RootOfThreeHalves: x.hypot(y).powf(1.5);
+// Sums are grouped as they are written.
+at_the_origin! {
+    second_derivatives_at_the_origin_of_space_are_limits, (x, y, z, w), x * d(y) + z * d(w), 4;
+    ThreeHalves: (x * x + y * y + z * z).powf(1.5) => [0.0; 16];
+    FiveQuarters: (x * x + y * y + z * z + w * w).powf(1.25) => [0.0; 16];
+    CubeOfRoot: (x * x + y * y + z * z).sqrt().powi(3) => [0.0; 16];
+    TimesRoot: { let r2 = x * x + y * y + z * z; r2 * r2.sqrt() } => [0.0; 16];
+    Weighted: (2.0 * x * x + 0.5 * y.powi(2) + z * z).powf(1.5) => [0.0; 16];
 }
 
 /// At the end of a domain the limit is another one: ∂(√x sin √x)/∂x is 1 at 0, and is not found.
@@ -116,45 +106,9 @@ struct HiddenEnd;
 
 #[test]
 fn no_limit_is_made_up_at_the_end_of_a_domain() {
-    for first in [at_origin(&EndOfDomain).0, at_origin(&HiddenEnd).0] {
+    for first in [at_point(&EndOfDomain, [0.0; 2]).0, at_point(&HiddenEnd, [0.0; 2]).0] {
         assert!(first[0].is_nan(), "{first:?}");
     }
-}
-
-/// The same in space: sums are grouped as they are written.
-macro_rules! in_space {
-    ($($name:ident: $hamiltonian:expr;)*) => {
-        $(
-            #[degenerate_lagrangian(
-                coordinates(x, y, z, w),
-                one_form = x * d(y) + z * d(w),
-                hamiltonian = $hamiltonian,
-            )]
-            struct $name;
-        )*
-
-        #[test]
-        fn second_derivatives_at_the_origin_of_space_are_limits() -> Outcome {
-            $(
-                let (q, v) = ([0.0; 4], [0.0; 4]);
-                let (mut gradient, mut momentum, mut matrix) = ([0.0; 4], [0.0; 4], [0.0; 16]);
-                let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-                $name.linearize(&q, &v, 0.0, weights, &mut gradient, &mut momentum, &mut filling(&mut matrix, 4));
-                if gradient != [0.0; 4] || matrix != [0.0; 16] {
-                    return Err(format!("{}: {gradient:?}, {matrix:?}", stringify!($hamiltonian)));
-                }
-            )*
-            Ok(())
-        }
-    };
-}
-
-in_space! {
-    ThreeHalves: (x * x + y * y + z * z).powf(1.5);
-    FiveQuarters: (x * x + y * y + z * z + w * w).powf(1.25);
-    CubeOfRoot: (x * x + y * y + z * z).sqrt().powi(3);
-    TimesRoot: { let r2 = x * x + y * y + z * z; r2 * r2.sqrt() };
-    Weighted: (2.0 * x * x + 0.5 * y.powi(2) + z * z).powf(1.5);
 }
 
 /// r³ of a particle in space, as a sum over an array; and of each of two particles.
@@ -176,15 +130,6 @@ struct IndexPowers {
 #[lagrangian(coordinates(u), lagrangian = dot(u).powi(2) / 2 - 1 / (1 + (u / a).exp()) - u / (u / a).exp_m1())]
 struct Steep {
     a: f64,
-}
-
-/// ∂L/∂q and ∂²L/∂q∂q.
-fn position_derivatives<S: Lagrangian, const N: usize>(system: &S, q: [f64; N]) -> ([f64; N], Vec<f64>) {
-    let (mut gradient, mut momentum, mut matrix) = ([0.0; N], [0.0; N], vec![0.0; N * N]);
-    let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-    let sink = &mut |i: usize, j: usize, entry: f64| matrix[N * i + j] += entry;
-    system.linearize(&q, &[0.0; N], 0.0, weights, &mut gradient, &mut momentum, sink);
-    (gradient, matrix)
 }
 
 #[test]

@@ -19,7 +19,8 @@ macro_rules! near_the_ends {
         fn derivatives_are_numbers_where_formulas_are() {
             $(
                 let ([a, b], [aa, ab, bb], f): ([f64; 2], [f64; 3], f64) = ($slopes, $bends, $value);
-                let (value, [by_x, by_y], second) = at_point(&$name, [$x, $y]);
+                let ([by_x, by_y], second) = at_point(&$name, [$x, $y]);
+                let value = $name.hamiltonian(&[$x, $y], 0.0);
                 // Each with what it is added up from.
                 let mixed = [a * b, ab];
                 let products = [[1.0, 0.0], [a, 0.0], [b, 0.0], [a * a, aa], mixed, mixed, [b * b, bb]];
