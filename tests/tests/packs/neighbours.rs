@@ -2,17 +2,19 @@
 //! a ring.
 
 use dvi_core::prelude::*;
-use dvi_core::scalar::Lanes;
 
-use super::{SIZES, gradients_agree, lanes_agree, numbers};
+use super::{SIZES, gradients_agree, numbers};
 
-/// Terms that add to several entries of one array, which lie beside one another.
-#[lagrangian(
+/// Terms that add to several entries of one array: beside one another, as far apart as a pack has terms, nearly
+/// so far, and farther.
+#[degenerate_lagrangian(
     coordinates(x[n], y[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0
-        + sum(1..n, |j| x[j] * x[j - 1] + y[j - 1].powi(2) * y[j])
+    one_form = sum(0..n, |j| y[j] * d(x[j])),
+    hamiltonian = sum(1..n, |j| x[j] * x[j - 1] + y[j - 1].powi(2) * y[j])
         - sum(0..n - 2, |j| k[j] * (x[j + 2] - 2.0 * x[j + 1] + x[j]).powi(2)) / 2.0
-        - sum(stride..n, |j| x[j - stride] * y[j] * x[j]),
+        - sum(stride..n, |j| x[j - stride] * y[j] * x[j])
+        + sum(9..n, |j| k[j] * x[j] * x[j - 7] * x[j - 8] * x[j - 9] * y[j - 3] * y[j - 3])
+        - sum(8..n, |j| x[j] * x[j - 8] - y[j] * y[j - 7] * x[j - 4]),
 )]
 struct Neighbours {
     n: usize,
@@ -21,33 +23,9 @@ struct Neighbours {
 }
 
 #[test]
-fn entries_beside_one_another() {
+fn entries_beside_one_another_and_far_apart() {
     for (n, stride) in (2..45).flat_map(|n| [1, 2, 9].map(|stride| (n, stride))) {
-        let system = Neighbours { n, stride, k: numbers(n, 11) };
-        lanes_agree(
-            &numbers(2 * n, 12),
-            |q, out| system.force(q, &[], Lanes::all(0.0), out),
-            |q, out| system.force(q, &[], 0.0, out),
-        );
-    }
-}
-
-/// Terms that add to entries that are as far apart as a pack has terms, nearly so far, and farther.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| y[j] * d(x[j])),
-    hamiltonian = sum(9..n, |j| k[j] * x[j] * x[j - 7] * x[j - 8] * x[j - 9] * y[j - 3] * y[j - 3])
-        - sum(8..n, |j| x[j] * x[j - 8] - y[j] * y[j - 7] * x[j - 4]),
-)]
-struct Far {
-    n: usize,
-    k: Vec<f64>,
-}
-
-#[test]
-fn entries_far_apart() {
-    for n in SIZES {
-        gradients_agree(&Far { n, k: numbers(n, 15) }, &numbers(2 * n, 16));
+        gradients_agree(&Neighbours { n, stride, k: numbers(n, 11) }, &numbers(2 * n, 12));
     }
 }
 
