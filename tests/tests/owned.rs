@@ -11,6 +11,8 @@ use dvi_tests::configurations::leapfrogging;
 use dvi_tests::zoo::regular::{KEPLER, Kepler, KeplerState};
 use dvi_tests::{Outcome, bits};
 
+use crate::together::held_together;
+
 const STEPS: u64 = 100;
 const START: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.8 };
 
@@ -109,14 +111,10 @@ fn runs_share_a_system() -> Outcome {
 fn runs_of_their_own_systems_go_together_in_lanes() -> Outcome {
     let begin = |j: u32| {
         let start = KeplerState { dot_y: 0.8 + 0.05 * f64::from(j), ..START };
-        Integrator::new(KEPLER, Variational::trapezoid(), 0.05, start)
+        Integrator::new(KEPLER, Variational::trapezoid(), 0.05, start).map_err(Into::into)
     };
-    let mut together = (0..6).map(begin).collect::<Result<Vec<_>, _>>()?;
-    let results = Together::<4, _, _>::new(&together[0]).take_steps(&mut together, STEPS);
-    assert!(results.iter().all(Result::is_ok));
-    for (j, run) in (0..).zip(&together) {
-        assert_eq!(run.checkpoint(), end(begin(j)?)?.0);
-    }
+    let errors = held_together::<4, _, _, _>(|| (0..6).map(begin).collect(), &[STEPS])?;
+    assert!(errors.iter().all(Option::is_none), "{errors:?}");
     Ok(())
 }
 

@@ -2,38 +2,27 @@
 
 mod parameters;
 
-use dvi_core::discrete::{Trapezoid, Unfitted};
 use dvi_core::methods::InStep;
 use dvi_core::prelude::*;
-use dvi_core::run::Together;
-use dvi_core::scalar::Lanes;
-use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian};
-use dvi_tests::Outcome;
-use dvi_tests::bits;
 use dvi_tests::configurations::{chaotic, quasi_periodic};
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::*;
+use dvi_tests::{Outcome, bits};
 
-/// Takes the steps of `strides` with a run on each system from each start, together in packs of `W` and
-/// alone. Returns the errors.
-pub(crate) fn same_as_alone<
-    const W: usize,
-    S: Lagrangian + PartialEq,
-    M: InStep<W, S> + PartialEq + Clone,
->(
-    runs: &[(&S, S::State<f64>)],
-    method: &M,
-    h: f64,
+/// Takes the steps of `strides` with runs together in packs of `W`, which have room for those of as many
+/// coordinates as the first, and with the same runs alone. Returns the errors.
+pub(crate) fn held_together<const W: usize, H, S, M>(
+    begin: impl Fn() -> Outcome<Vec<Integrator<H, M>>>,
     strides: &[u64],
-) -> Outcome<Vec<Option<StepError>>> {
-    let begin = || -> Outcome<Vec<_>> {
-        let runs =
-            runs.iter().map(|(system, start)| Integrator::new(*system, method.clone(), h, start.clone()));
-        Ok(runs.collect::<Result<_, _>>()?)
-    };
+) -> Outcome<Vec<Option<StepError>>>
+where
+    H: Held<System = S>,
+    S: Lagrangian + PartialEq,
+    M: InStep<W, S> + PartialEq,
+{
     let (mut together, mut alone) = (begin()?, begin()?);
     let mut packs = Together::<W, _, _>::new(&together[0]);
-    let mut errors = vec![None; runs.len()];
+    let mut errors = vec![None; together.len()];
     for &count in strides {
         let results = packs.take_steps(&mut together, count);
         for (j, (run, result)) in alone.iter_mut().zip(results).enumerate() {
@@ -52,6 +41,23 @@ pub(crate) fn same_as_alone<
         }
     }
     Ok(errors)
+}
+
+/// The same of runs of one method and one step, on each system from each start.
+pub(crate) fn same_as_alone<
+    const W: usize,
+    S: Lagrangian + PartialEq,
+    M: InStep<W, S> + PartialEq + Clone,
+>(
+    runs: &[(&S, S::State<f64>)],
+    method: &M,
+    h: f64,
+    strides: &[u64],
+) -> Outcome<Vec<Option<StepError>>> {
+    let begin = |(system, start): &(_, S::State<f64>)| {
+        Integrator::new(*system, method.clone(), h, start.clone()).map_err(Into::into)
+    };
+    held_together::<W, _, _, _>(|| runs.iter().map(begin).collect(), strides)
 }
 
 const STRIDES: [u64; 7] = [1, 2, 5, 300, 1, 150, 3];
@@ -187,58 +193,33 @@ fn verlet_is_the_same_in_lanes() -> Outcome {
 fn runs_that_are_not_in_step_are_taken_alone() -> Outcome {
     let (one, other) = (Kepler { mu: 1.0 }, Kepler { mu: 2.0 });
     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.9 };
-    type Run<'a> = Integrator<&'a Kepler, Variational<Unfitted, Trapezoid>>;
-    let begin = || -> Outcome<[Run<'_>; 6]> {
-        let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };
-        let mut ahead = Integrator::new(&one, Variational::trapezoid(), 0.05, start)?;
-        ahead.take_steps(3)?;
-        Ok([
-            Integrator::new(&one, Variational::trapezoid(), 0.05, start)?,
-            Integrator::new(&other, Variational::trapezoid(), 0.05, start)?,
-            Integrator::new(&one, Variational::trapezoid(), 0.04, start)?,
-            Integrator::new(&one, compensated, 0.05, start)?,
-            ahead,
-            Integrator::new_at(&one, Variational::trapezoid(), 1.0, 0.05, start)?,
-        ])
-    };
-    let (mut together, mut alone) = (begin()?, begin()?);
-    let results = Together::<4, _, _>::new(&together[0]).take_steps(&mut together, 400);
-    for ((one, other), result) in alone.iter_mut().zip(&together).zip(results) {
-        assert_eq!(one.take_steps(400), result);
-        assert_eq!(one.checkpoint(), other.checkpoint());
-    }
+    held_together::<4, _, _, _>(
+        || {
+            let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };
+            let mut ahead = Integrator::new(&one, Variational::trapezoid(), 0.05, start)?;
+            ahead.take_steps(3)?;
+            Ok(vec![
+                Integrator::new(&one, Variational::trapezoid(), 0.05, start)?,
+                Integrator::new(&other, Variational::trapezoid(), 0.05, start)?,
+                Integrator::new(&one, Variational::trapezoid(), 0.04, start)?,
+                Integrator::new(&one, compensated, 0.05, start)?,
+                ahead,
+                Integrator::new_at(&one, Variational::trapezoid(), 1.0, 0.05, start)?,
+            ])
+        },
+        &[400],
+    )?;
     Ok(())
 }
 
 #[test]
 fn runs_of_other_sizes_are_taken_alone() -> Outcome {
-    let systems = [2, 3, 3, 5].map(|n| Springs { k: vec![1.5; n] });
-    let begin = || -> Outcome<Vec<_>> {
-        let mut runs = Vec::new();
-        for system in &systems {
-            let n = system.k.len();
-            let state = SpringsState { x: vec![0.3; n], dot_x: vec![0.1; n] };
-            runs.push(Integrator::new(system, Variational::trapezoid(), 0.1, state)?);
-        }
-        Ok(runs)
-    };
-    for first in 0..systems.len() {
-        let (mut together, mut alone) = (begin()?, begin()?);
-        let results = Together::<4, _, _>::new(&together[first]).take_steps(&mut together, 40);
-        assert!(results.iter().all(Result::is_ok));
-        for (one, other) in alone.iter_mut().zip(&together) {
-            one.take_steps(40)?;
-            assert_eq!(one.checkpoint(), other.checkpoint());
-        }
+    for sizes in [[2, 3, 3, 5], [3, 3, 5, 2], [5, 2, 3, 3]] {
+        let systems = sizes.map(|n| Springs { k: vec![1.5; n] });
+        let state = |n: usize| SpringsState { x: vec![0.3; n], dot_x: vec![0.1; n] };
+        let runs: Vec<_> = systems.iter().map(|system| (system, state(system.k.len()))).collect();
+        let errors = same_as_alone::<4, _, _>(&runs, &Variational::trapezoid(), 0.1, &[40])?;
+        assert!(errors.iter().all(Option::is_none), "{errors:?}");
     }
     Ok(())
-}
-
-/// What the documentation says of the two traits that lanes need.
-#[test]
-fn systems_are_computed_in_lanes() {
-    fn degenerate<const W: usize, S: DegenerateLagrangian<Lanes<W>>>(_: &S) {}
-    fn regular<const W: usize, S: RegularLagrangian<Lanes<W>>>(_: &S) {}
-    degenerate::<4, _>(&quasi_periodic().0);
-    regular::<8, _>(&Kepler { mu: 1.0 });
 }

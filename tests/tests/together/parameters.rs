@@ -5,7 +5,6 @@ use dvi_tests::Outcome;
 
 use dvi_core::Scalar;
 use dvi_core::prelude::*;
-use dvi_core::run::Together;
 use dvi_tests::configurations::quasi_periodic;
 
 use super::same_as_alone;
