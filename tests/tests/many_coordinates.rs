@@ -2,11 +2,10 @@
 //! method with these takes the steps of solvers that store none. Of two-forms with a band, a run is that of
 //! the same system of fixed size, whose matrix is dense.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_examples::models::{VortexBlobs, VortexBlobsState};
 
-use crate::networks::as_without_a_matrix;
+use crate::networks::{as_without_a_matrix, end};
 
 const N: usize = 24;
 
@@ -91,13 +90,6 @@ fn banded_newton_steps_are_those_without_a_matrix() {
     regular!(Bent, BentState, Variational::midpoint(), Variational::trapezoid(), Galerkin::<3>::new());
 }
 
-/// Where a run on a lattice is.
-fn end<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, start: S::State<f64>) -> Vec<f64> {
-    let mut run = Integrator::new(system, method, 0.1, start).expect("starts");
-    run.take_steps(40).expect("steps");
-    run.q().to_vec()
-}
-
 /// A fixed point and explicit steps need the matrix of a two-form.
 #[test]
 fn two_forms_with_a_band_are_those_of_fixed_size() {
@@ -108,16 +100,16 @@ fn two_forms_with_a_band_are_those_of_fixed_size() {
     let bent = LongBentLattice { m: masses().to_vec() };
     let bent_start = LongBentLatticeState { x: x.to_vec(), y: y.to_vec() };
     let by = |solver| Sigma { solver, ..Sigma::midpoint() };
-    let close = |a: &[f64], b: &[f64]| {
+    let close = |(a, _): &(Vec<f64>, u64), (b, _): &(Vec<f64>, u64)| {
         let difference = dvi_tests::apart(a, b);
         assert!(difference < 1e-11, "{difference:e}");
     };
     let classical = RungeKutta::classical();
-    close(&end(&long, classical, same.clone()), &end(&fixed, classical, start));
-    let of_bent = end(&bent, by(Solver::FixedPoint), bent_start.clone());
+    close(&end(&long, classical, (0.1, 40), same.clone()), &end(&fixed, classical, (0.1, 40), start));
+    let of_bent = end(&bent, by(Solver::FixedPoint), (0.1, 40), bent_start.clone());
     for solver in [Solver::Newton, Solver::FixedPoint] {
-        close(&end(&long, by(solver), same.clone()), &end(&fixed, by(solver), start));
-        close(&of_bent, &end(&bent, by(solver), bent_start.clone()));
+        close(&end(&long, by(solver), (0.1, 40), same.clone()), &end(&fixed, by(solver), (0.1, 40), start));
+        close(&of_bent, &end(&bent, by(solver), (0.1, 40), bent_start.clone()));
     }
     as_without_a_matrix!(0.1, long, same.clone(), Sigma::midpoint());
     as_without_a_matrix!(0.1, bent, bent_start.clone(), Sigma::midpoint());
@@ -152,27 +144,16 @@ fn products_with_vectors_are_enough_for_many_bodies() {
     let n = 40;
     let [x, y] = disc(n);
     let distance = dvi_tests::apart;
-    fn steps<S: Lagrangian, M: Method<S, f64>>(
-        system: &S,
-        method: M,
-        h: f64,
-        start: S::State<f64>,
-    ) -> (Vec<f64>, u64) {
-        let mut run = Integrator::new(system, method, h, start).expect("starts");
-        run.take_steps(3).expect("steps");
-        (run.q().to_vec(), run.statistics().iterations)
-    }
-
     let m = (0..n).map(|j| 10.0_f64.powi(j as i32 % 3)).collect();
     let swarm = Swarm { m, k: 1.0, g: 1.0 / n as f64 };
     let start = SwarmState { x: x.clone(), y: y.clone(), dot_x: y.clone(), dot_y: x.clone() };
     let by = |solver| Variational { solver, ..Variational::midpoint() };
-    let (expected, _) = steps(&swarm, by(Solver::FixedPoint), 0.05, start.clone());
-    let (found, iterations) = steps(&swarm, by(Solver::NewtonKrylov), 0.05, start.clone());
+    let (expected, _) = end(&swarm, by(Solver::FixedPoint), (0.05, 3), start.clone());
+    let (found, iterations) = end(&swarm, by(Solver::NewtonKrylov), (0.05, 3), start.clone());
     assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
     let by = |solver| Galerkin { solver, ..Galerkin::<3>::new() };
-    let (expected, _) = steps(&swarm, by(Solver::FixedPoint), 0.05, start.clone());
-    let (found, iterations) = steps(&swarm, by(Solver::NewtonKrylov), 0.05, start.clone());
+    let (expected, _) = end(&swarm, by(Solver::FixedPoint), (0.05, 3), start.clone());
+    let (found, iterations) = end(&swarm, by(Solver::NewtonKrylov), (0.05, 3), start.clone());
     assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
     let by = |solver| Variational { solver, ..Variational::midpoint() };
     // Where the fixed point does not contract: h²k/4 > 1.
@@ -186,7 +167,7 @@ fn products_with_vectors_are_enough_for_many_bodies() {
     let cloud = VortexBlobs { gamma, core: 0.1 };
     let start = VortexBlobsState { x, y };
     let by = |solver| Sigma { solver, ..Sigma::midpoint() };
-    let (expected, _) = steps(&cloud, by(Solver::FixedPoint), 0.1, start.clone());
-    let (found, iterations) = steps(&cloud, by(Solver::NewtonKrylov), 0.1, start);
+    let (expected, _) = end(&cloud, by(Solver::FixedPoint), (0.1, 3), start.clone());
+    let (found, iterations) = end(&cloud, by(Solver::NewtonKrylov), (0.1, 3), start);
     assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
 }

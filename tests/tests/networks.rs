@@ -1,7 +1,6 @@
 //! Systems on a tree, whose matrices are sparse and have no narrow band: Newton's method with their factors,
 //! against a solver that stores no matrix, and rods against what they have to keep.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 use dvi_tests::zoo::constrained::{Mobile, MobileState};
@@ -55,11 +54,11 @@ fn wave(phase: f64) -> Vec<f64> {
 pub(crate) fn end<S: Lagrangian, M: Method<S, f64>>(
     system: &S,
     method: M,
-    h: f64,
+    (h, steps): (f64, u64),
     start: S::State<f64>,
 ) -> (Vec<f64>, u64) {
     let mut run = Integrator::new(system, method, h, start).expect("starts");
-    run.take_steps(10).expect("steps");
+    run.take_steps(steps).expect("steps");
     (run.q().to_vec(), run.statistics().iterations)
 }
 
@@ -69,7 +68,7 @@ macro_rules! as_without_a_matrix {
         let [(expected, _), (found, iterations)] = [Solver::NewtonKrylov, Solver::Newton].map(|solver| {
             let mut method = $method;
             method.solver = solver;
-            $crate::networks::end(&$system, method, $h, $start)
+            $crate::networks::end(&$system, method, ($h, 10), $start)
         });
         let difference = dvi_tests::apart(&expected, &found);
         assert!(difference < 1e-13, "{}: {difference:e}", stringify!($method));
