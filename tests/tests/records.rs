@@ -4,7 +4,7 @@ mod bodies;
 mod columns;
 mod files;
 mod page;
-mod sizes;
+pub(crate) mod sizes;
 
 use dvi_core::Lagrangian;
 use dvi_core::record::RecordError;

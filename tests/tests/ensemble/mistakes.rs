@@ -6,6 +6,7 @@ use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::{Springs, SpringsState};
 
 use crate::ensemble::{Checked, HenonHeiles, bytes, planets, said, wells};
+use crate::records::sizes::Lattice;
 
 #[test]
 fn no_steps_and_no_members() -> Checked {
@@ -38,13 +39,6 @@ fn numbers_out_of_range() {
     assert_eq!(said(result), "there are 2 systems for 3 states");
 }
 
-/// Free particles, in an array with two indices.
-#[lagrangian(coordinates(q[n][m]), lagrangian = sum(0..n, |i| sum(0..m, |j| dot(q[i][j]).powi(2) / 2.0)))]
-struct Lattice {
-    n: usize,
-    m: usize,
-}
-
 /// Systems whose arrays have a length at run time.
 #[test]
 fn shapes_that_differ() -> Checked {
@@ -57,7 +51,7 @@ fn shapes_that_differ() -> Checked {
     let differ = "the arrays of the system of member 1 have other lengths than those of member 0";
     assert_eq!(said(result), differ);
     // As many coordinates, in rows of other lengths.
-    let [wide, tall] = [[2, 3], [3, 2]].map(|[n, m]| Lattice { n, m });
+    let [wide, tall] = [[2, 3], [3, 2]].map(|[n, m]| Lattice { n, m, k: vec![1.0; n] });
     let states = [&wide, &tall].map(|system| system.state_of([]));
     let result = Ensemble::with_systems(&[wide, tall], Variational::trapezoid(), 0.1, states).take_steps(10);
     assert_eq!(said(result), differ);

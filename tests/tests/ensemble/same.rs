@@ -5,7 +5,6 @@ use std::fmt::Debug;
 use std::time::Duration;
 
 use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 
@@ -99,15 +98,7 @@ fn beside_members_that_fail() -> Checked {
             || Ensemble::with_systems(systems, Gauss::<3>::new(), 0.01, of()).stride(20),
             &[],
         )?;
-        let all = same("energy limit", 400, || Ensemble::with_systems(systems, method, 0.01, of()), &[])?;
-        // Without those that fail, the others are what they were.
-        for (member, state) in all.members().iter().zip(&states).filter(|(_, state)| state.dot_y > 0.0) {
-            let system = &systems[member.number as usize..][..1];
-            let alone = Ensemble::with_systems(system, method, 0.01, [*state]).take_steps(400)?;
-            let [a, b] =
-                [member, &alone.members()[0]].map(|member| member.state.iter().map(|x| x.to_bits()));
-            assert!(a.eq(b) && member.outcome == alone.members()[0].outcome);
-        }
+        same("energy limit", 400, || Ensemble::with_systems(systems, method, 0.01, of()), &[])?;
     }
     Ok(())
 }

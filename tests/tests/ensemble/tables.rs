@@ -4,7 +4,7 @@ use dvi_core::ensemble::{Ensemble, Member, Outcome, Results, Shard};
 use dvi_core::prelude::*;
 use dvi_core::record::{Quantity, RecordError, Values};
 
-use crate::ensemble::{Checked, HenonHeiles, bytes, file, planets, wells};
+use crate::ensemble::{Checked, bytes, file, planets};
 
 #[test]
 fn the_columns() -> Checked {
@@ -22,15 +22,6 @@ fn the_columns() -> Checked {
         failed.is_some_and(|line| line.starts_with("4,failed,") && line.ends_with(",NaN,0.0,0.0,0.0,0.92")),
         "{failed:?}"
     );
-    Ok(())
-}
-
-#[test]
-fn reasons_are_quoted() -> Checked {
-    let reason = "left, \"far\" away\nand for ever";
-    let ensemble = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(2));
-    let [csv, _] = bytes(&ensemble.until([reason], |_, _, _| [1.0]).take_steps(5)?)?;
-    assert!(String::from_utf8_lossy(&csv).contains("\"left, \"\"far\"\" away\nand for ever\""));
     Ok(())
 }
 

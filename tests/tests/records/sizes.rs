@@ -64,10 +64,10 @@ fn lines(record: &Record) -> Result<usize, Box<dyn std::error::Error>> {
     coordinates(q[n][m]),
     lagrangian = sum(0..n, |i| sum(0..m, |j| dot(q[i][j]).powi(2) / 2.0 - k[i] * q[i][j].powi(4))),
 )]
-struct Lattice {
-    n: usize,
-    m: usize,
-    k: Vec<f64>,
+pub(crate) struct Lattice {
+    pub(crate) n: usize,
+    pub(crate) m: usize,
+    pub(crate) k: Vec<f64>,
 }
 
 /// As many coordinates, in rows of other lengths.
