@@ -8,13 +8,12 @@ mod scales;
 
 use approx::abs_diff_eq;
 use core::f64::consts::{FRAC_PI_2, TAU};
-use dvi_tests::Outcome;
 
 use dvi_core::prelude::*;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use dvi_tests::zoo::regular::{PLANE, Planar, PlanarState};
-use dvi_tests::{bits, larger};
+use dvi_tests::{Outcome, bits, larger};
 
 /// The midpoint rule turns the oscillator by 2 atan(ωh/2) a step: with it, crossings are known as parts of a
 /// step.

@@ -4,7 +4,7 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
-use dvi_tests::zoo::regular::{FREE, Kepler, KeplerState, PLANE, PlanarState, Spring, SpringState};
+use dvi_tests::zoo::regular::{FREE, Kepler, KeplerState, PLANE, PlanarState, SPRING, Spring, SpringState};
 use num_dual::Dual64;
 
 use super::PLANAR;
@@ -254,15 +254,12 @@ fn times_of_events_carry_derivatives() -> Outcome {
     Ok(())
 }
 
-#[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
-struct Oscillator;
-
 #[test]
 fn a_limit_of_the_energy_hides_no_stages() -> Outcome {
-    let start = OscillatorState { x: 1.0, dot_x: 0.0 };
+    let start = SpringState { x: 1.0, dot_x: 0.0 };
     let method = EnergyLimit { method: Gauss::<8>::new(), limit: 1.0 };
-    let mut run = Integrator::new(&Oscillator, method, 4.5, start)?;
-    let mut events = run.events([Direction::Either], |_, oscillator| [oscillator.x - 0.9])?;
+    let mut run = Integrator::new(&SPRING, method, 4.5, start)?;
+    let mut events = run.events([Direction::Either], |_, spring| [spring.x - 0.9])?;
     let mut found = 0;
     while events.next_until(40.0)?.is_some() {
         found += 1;

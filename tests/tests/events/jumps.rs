@@ -14,6 +14,12 @@ fn method(restitution: f64) -> Impacts<Variational<Unfitted, Trapezoid>> {
     Impacts { restitution, ..Impacts::reflecting(Variational::trapezoid()) }
 }
 
+#[track_caller]
+fn assert_close(found: Dual64, exact: Dual64, [value, derivative]: [f64; 2]) {
+    assert_abs_diff_eq!(found.re, exact.re, epsilon = value);
+    assert_abs_diff_eq!(found.eps, exact.eps, epsilon = derivative);
+}
+
 /// Where y + kẏ = level up to a time, by the height of the start, of a ball that begins at `y` with `v`: on
 /// its way between impacts, and at these if the speed jumps across.
 fn met(restitution: f64, [mut y, mut v]: [Dual64; 2], [k, level, end]: [f64; 3]) -> Vec<Dual64> {
@@ -61,11 +67,10 @@ fn a_condition_is_met_before_an_impact_behind_it_and_there() -> Outcome {
             let mut dual = Integrator::new(&Ball, method(restitution), h.into(), start)?;
             let mut dual = dual.events([Direction::Either], |_, ball| [ball.y + ball.dot_y * k - level])?;
             while let Some(event) = dual.next_until(end.into())? {
-                let Dual64 { re, eps, .. } = expected.next().ok_or(format!("{event:?} of none: {case}"))?;
-                assert_abs_diff_eq!(event.time.re, re, epsilon = 1e-10);
-                assert_abs_diff_eq!(event.time.eps, eps, epsilon = 1e-7);
-                let event = plain.next_until(end)?.ok_or(format!("none at {re}: {case}"))?;
-                assert_abs_diff_eq!(event.time, re, epsilon = 1e-10);
+                let exact = expected.next().ok_or(format!("{event:?} of none: {case}"))?;
+                assert_close(event.time, exact, [1e-10, 1e-7]);
+                let event = plain.next_until(end)?.ok_or(format!("none at {exact}: {case}"))?;
+                assert_abs_diff_eq!(event.time, exact.re, epsilon = 1e-10);
             }
             assert!(expected.next().is_none() && plain.next_until(end)?.is_none(), "{case}");
         }
@@ -84,8 +89,7 @@ fn a_state_at_a_jump_is_that_behind_it() -> Outcome {
         let mut events = run.events([Direction::Rising], |_, ball| [ball.dot_y])?;
         let Event { time, state, .. } = events.next_until(Dual64::from(3.0))?.ok_or("it bounces")?;
         for (found, exact) in [(time, dot_y + speed), (state.dot_y, speed), (state.y, Dual64::from(0.0))] {
-            assert_abs_diff_eq!(found.re, exact.re, epsilon = 1e-12);
-            assert_abs_diff_eq!(found.eps, exact.eps, epsilon = 1e-12);
+            assert_close(found, exact, [1e-12, 1e-12]);
         }
     }
     Ok(())
@@ -105,8 +109,7 @@ fn an_impact_at_the_end_of_a_step_has_derivatives() -> Outcome {
         let BallStateOf { y, dot_y } = run.dense()?.state_at(later)?;
         let speed = landing - start.dot_y;
         for (found, exact) in [(y, speed * after - after * after * 0.5), (dot_y, speed - after)] {
-            assert_abs_diff_eq!(found.re, exact.re, epsilon = 1e-13);
-            assert_abs_diff_eq!(found.eps, exact.eps, epsilon = 1e-12);
+            assert_close(found, exact, [1e-13, 1e-12]);
         }
     }
     Ok(())
@@ -134,8 +137,7 @@ fn a_gap_is_met_at_each_impact_and_on_one_side() -> Outcome {
         let Event { time, state, .. } = event.ok_or("it bounces")?;
         let speed = (start.dot_y * start.dot_y + start.y * 2.0).sqrt();
         for (found, exact) in [(time, start.dot_y + speed), (state.dot_y, speed)] {
-            assert_abs_diff_eq!(found.re, exact.re, epsilon = 1e-12);
-            assert_abs_diff_eq!(found.eps, exact.eps, epsilon = 1e-11);
+            assert_close(found, exact, [1e-12, 1e-11]);
         }
     }
     Ok(())

@@ -1,8 +1,6 @@
 //! The motion, against closed forms and a reference by hand.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use dvi_core::discrete::Midpoint;
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::apart;
 use dvi_tests::zoo::impacts::*;

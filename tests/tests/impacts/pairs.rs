@@ -2,7 +2,7 @@
 
 use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;
-use dvi_core::{ConstrainedSystem, Space, UnilateralLagrangian};
+use dvi_core::{ConstrainedSystem, Space};
 
 /// Surfaces are numbered row by row: ranges that grow, that end before they begin, that go on backwards, in
 /// three kinds of sizes.

@@ -1,10 +1,10 @@
 //! What runs with impacts preserve: the symplectic form, momenta, energy at impacts, the way back.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use dvi_core::State;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::impacts::*;
 use dvi_tests::{apart, larger};
+use nalgebra::Matrix4;
 use num_dual::Dual64;
 
 use super::Outcome;
@@ -38,21 +38,9 @@ fn jacobian<S: UnilateralLagrangian<Dual64>>(
 
 /// By how much dq ∧ dp changes. The mass matrix is the identity, so p = v at the start.
 fn change_of_form(columns: &Columns) -> f64 {
-    let form = |a: &[f64; 4], b: &[f64; 4]| a[0] * b[2] + a[1] * b[3] - a[2] * b[0] - a[3] * b[1];
-    let mut largest = 0.0;
-    for i in 0..4 {
-        for j in 0..4 {
-            let expected = if j == i + 2 {
-                1.0
-            } else if i == j + 2 {
-                -1.0
-            } else {
-                0.0
-            };
-            largest = larger(largest, (form(&columns[i], &columns[j]) - expected).abs());
-        }
-    }
-    largest
+    let map = Matrix4::from_fn(|row, column| columns[column][row]);
+    let form = Matrix4::from_fn(|i, j| f64::from(i8::from(j == i + 2) - i8::from(i == j + 2)));
+    (map.transpose() * form * map - form).iter().fold(0.0, |largest, entry| larger(largest, entry.abs()))
 }
 
 /// States whose next step has impacts: just above the floor, on the way down.
