@@ -6,9 +6,7 @@ use std::error::Error;
 use std::thread;
 
 use dvi_core::IndexError;
-use dvi_core::diagnostics::{LyapunovExponent, TangentMap};
 use dvi_core::ensemble::{Ensemble, Outcome};
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::space::Space;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
@@ -115,7 +113,6 @@ fn none_and_one_of_a_degenerate_system() -> Checked {
         OneStep::midpoint(),
         OneStepGauss::<2>::new(),
         Projected::symmetric(),
-        Gauss::<2>::new(),
         Gauss::<2>::new().in_lanes(),
         RungeKutta::classical(),
     );

@@ -3,12 +3,9 @@
 use core::f64::consts::TAU;
 
 use dvi_core::ensemble::Ensemble;
-use dvi_core::error::StartError;
-use dvi_core::methods::{Method, Start};
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
 use dvi_tests::zoo::manifold::{cross, dot};
-use dvi_tests::{apart, larger, oracle};
+use dvi_tests::{Outcome, apart, larger, oracle};
 use num_dual::{Dual64, DualNum as _};
 
 type Vector = [f64; 3];
@@ -144,7 +141,6 @@ fn methods_have_their_orders_and_keep_the_lengths() -> Outcome {
         (2.0, order(Sigma::midpoint(), &exact, 160)?),
         (2.0, order(Projected::symmetric(), &exact, 160)?),
         (4.0, order(Gauss::<2>::new(), &exact, 40)?),
-        (4.0, order(Composition::suzuki(Gauss::<1>::new()), &exact, 40)?),
     ] {
         assert!((found - expected).abs() < 0.1, "{found} and not {expected}");
     }

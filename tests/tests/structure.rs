@@ -1,12 +1,9 @@
 //! What is declared of a system, and what reports say of its structure.
 
-use dvi_core::DegenerateLagrangian;
 use dvi_core::mechanics::Rates;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::quasi_periodic;
-use dvi_tests::zoo::regular::{
-    DoublePendulum, Gravity, Kepler, MagneticParticle, Relativistic, RunTimeChain,
-};
+use dvi_tests::zoo::regular::{DoublePendulum, Gravity, MagneticParticle, Relativistic, RunTimeChain};
 use dvi_tests::{Outcome, apart};
 
 #[test]
@@ -18,40 +15,6 @@ fn an_undeclared_momentum_is_none() -> Outcome {
     let names: Vec<_> = run.momenta().map(|(name, _)| name).collect();
     assert_eq!(names, ["impulse_x", "impulse_y", "angular"]);
     Ok(())
-}
-
-#[test]
-fn the_report_of_a_regular_system_prints_all_of_it() {
-    let expected = "\
-Kepler
-coordinates
-  x
-  y
-formulas
-  L = 0.5·(dot(x)^2 + dot(y)^2 + 2·mu/sqrt(x^2 + y^2))
-  E = 0.5·(dot(x)^2 + dot(y)^2 - 2·mu/sqrt(x^2 + y^2))
-  angular = x·dot(y) - dot(x)·y
-  ∂L/∂x = -x·mu/sqrt(x^2 + y^2)^3
-  ∂L/∂dot(x) = dot(x)
-  ∂L/∂y = -y·mu/sqrt(x^2 + y^2)^3
-  ∂L/∂dot(y) = dot(y)
-structure
-  L = ½ v·M v − V(q, t) with a constant diagonal mass matrix M.
-  The trapezoidal (Störmer–Verlet) step is explicit: one gradient of V a step, no iteration, no factorisation.
-  L is a polynomial of degree two in v: p = ∂L/∂v is affine in v.
-  Begin with `Variational::trapezoid()`.
-  Checked when compiled: at 2 points, every generated function agrees with the formulas as written, to 1e-15 of the sum of the absolute terms.
-operations of the residual
-  once: 1 addition, 7 multiplications, 1 division, 1 call
-operations of residual and Jacobian
-  once: 3 additions, 16 multiplications, 1 division, 1 call
-entries of the Jacobian
-  (x, x)
-  (x, y)
-  (y, x)
-  (y, y)
-";
-    assert_eq!(Kepler::REPORT.to_string(), expected);
 }
 
 #[test]

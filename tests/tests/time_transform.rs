@@ -2,7 +2,6 @@
 //! the schemes preserve is preserved; and a time that would stand still is an error.
 
 use approx::assert_abs_diff_eq;
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::system::TimeTransform;
 use dvi_core::{ProperlyDegenerate, Space};
@@ -211,22 +210,14 @@ fn the_physical_time_does_not_run_backwards() -> Outcome {
 /// The limit is one of H − `energy`, which grows where a fall gets to the centre, and not of ρ times that.
 #[test]
 fn an_energy_limit_sees_the_energy() -> Outcome {
-    let system = Steep {};
-    let start = system.with_energy(SteepState { x: 1.0, y: 0.0, t: 0.0, energy: 0.0 })?;
+    let system = Fall { floor: 0.0 };
+    let start = system.with_energy(fall(0.0))?;
     let limited = EnergyLimit { method: OneStep::midpoint(), limit: 0.01 };
     let mut run = Integrator::new(&system, limited, 0.1, start)?;
     let error = run.take_steps(1000).err().ok_or("the energy is lost")?;
     assert!(matches!(error.failure, StepFailure::Energy { .. }), "{error}");
     Ok(())
 }
-
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = y * d(x),
-    hamiltonian = y * y / 2.0 - 1.0 / x,
-    time_transform = x.powi(3),
-)]
-struct Steep {}
 
 /// The terms of H may cancel: then H is known up to the rounding of these.
 #[test]

@@ -10,9 +10,7 @@ mod systems;
 
 use approx::relative_eq;
 use core::fmt::Debug;
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{Lagrangian, State};
 use dvi_tests::apart;
 
 use systems::{

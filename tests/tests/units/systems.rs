@@ -22,14 +22,14 @@ macro_rules! in_units {
 
 /// A system of two arrays, each with a unit.
 macro_rules! arrays_in_units {
-    ($system:ident, $size:ident, $n:literal, $h:literal, $start:expr) => {
+    ($system:ident, $($size:ident)? $n:literal, $h:literal, $start:expr) => {
         impl InUnits<2> for $system {
             const H: f64 = $h;
             fn unit(coordinate: usize) -> usize {
                 coordinate / $n
             }
             fn system([u, w]: [f64; 2], tau: f64) -> Self {
-                Self { $size: $n, u, w, tau }
+                Self { $($size: $n,)? u, w, tau }
             }
             fn start() -> Vec<f64> {
                 $start
@@ -50,18 +50,7 @@ pub(super) struct Vortices {
     tau: f64,
 }
 
-impl InUnits<2> for Vortices {
-    const H: f64 = 0.1;
-    fn unit(coordinate: usize) -> usize {
-        coordinate / 3
-    }
-    fn system([u, w]: [f64; 2], tau: f64) -> Self {
-        Self { u, w, tau }
-    }
-    fn start() -> Vec<f64> {
-        vec![1.0, -0.4, -0.7, 0.2, 0.9, -0.8]
-    }
-}
+arrays_in_units!(Vortices, 3, 0.1, vec![1.0, -0.4, -0.7, 0.2, 0.9, -0.8]);
 
 /// Four coordinates whose Ω has all entries, and no pair of them.
 #[degenerate_lagrangian(
@@ -121,7 +110,7 @@ pub(super) struct Amplitudes {
     tau: f64,
 }
 
-arrays_in_units!(Amplitudes, n, 4, 0.05, vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1]);
+arrays_in_units!(Amplitudes, n 4, 0.05, vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2, 0.1]);
 
 #[lagrangian(
     coordinates(x, y),
@@ -178,7 +167,7 @@ pub(super) struct Chain {
     tau: f64,
 }
 
-arrays_in_units!(Chain, n, 12, 0.2, (0..48).map(|j| (1.7 * f64::from(j)).sin()).collect());
+arrays_in_units!(Chain, n 12, 0.2, (0..48).map(|j| (1.7 * f64::from(j)).sin()).collect());
 
 /// A constant mass matrix that couples coordinates.
 #[lagrangian(
