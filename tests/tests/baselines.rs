@@ -1,9 +1,7 @@
 //! Gauss collocation and explicit Runge–Kutta methods on Hamilton's equations of regular systems.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
-use dvi_tests::apart;
+use dvi_tests::{Outcome, apart};
 
 /// Two oscillators of frequency 1 whose velocities are coupled, and beside them dF/dt of F = t x y + x³ y:
 /// the motion is that without it, and p = M v + ∂F/∂q.

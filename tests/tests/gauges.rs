@@ -2,8 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{ProperlyDegenerate, Space};
-use dvi_tests::filling;
-use dvi_tests::larger;
+use dvi_tests::{filling, larger};
 
 /// Points in the first quadrant, with logarithms and roots.
 const POINTS: [[f64; 10]; 3] = [

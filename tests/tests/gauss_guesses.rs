@@ -2,10 +2,8 @@
 //! one, out of tables too. The stages then begin once more from where the step begins.
 
 use dvi_core::field::{Axis, Spline};
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
-use dvi_tests::larger;
+use dvi_tests::{Outcome, larger};
 
 use crate::error_control::problems::{Splined, SplinedState};
 

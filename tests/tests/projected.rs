@@ -1,11 +1,9 @@
 //! Projected schemes: what becomes of Ω.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
-use dvi_tests::filling;
 use dvi_tests::steps::{jacobian, stepped};
 use dvi_tests::zoo::particles::Mirror;
+use dvi_tests::{Outcome, filling};
 use nalgebra::DMatrix;
 use num_dual::Dual64;
 

@@ -1,6 +1,5 @@
 //! A run ends where its energy goes astray.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};

@@ -1,7 +1,6 @@
 //! Below 2.2e-308 numbers are multiples of 4.9e-324: steps there are solved to such multiples, and not to
 //! digits that are not there.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 

@@ -4,11 +4,9 @@
 //! reached from a step of no length without a jump. Random chains of rods, whose joints fly freely, against
 //! that continuation.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
 use dvi_tests::zoo::constrained::{Double, DoubleState};
-use dvi_tests::{Numbers, larger};
+use dvi_tests::{Numbers, Outcome, larger};
 use nalgebra::{DMatrix, DVector};
 
 use crate::continuation::continued;

@@ -4,7 +4,6 @@
 use core::f64::consts::PI;
 
 use approx::assert_abs_diff_eq;
-use dvi_core::Lagrangian;
 use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;

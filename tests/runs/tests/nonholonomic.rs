@@ -3,13 +3,12 @@
 //! continuation.
 
 use core::f64::consts::PI;
-use dvi_tests::Outcome;
 
+use dvi_core::NonholonomicLagrangian;
 use dvi_core::prelude::*;
 use dvi_core::space::Sink;
-use dvi_core::{NonholonomicLagrangian, State};
 use dvi_tests::zoo::nonholonomic::Bundle;
-use dvi_tests::{Numbers, larger};
+use dvi_tests::{Numbers, Outcome, larger};
 use nalgebra::{DMatrix, DVector};
 
 use crate::continuation::continued;

@@ -1,7 +1,6 @@
 //! One-step schemes in many steps: one-forms with several branches; momenta that are rounded more than
 //! coordinates.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};

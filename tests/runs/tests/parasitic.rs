@@ -3,12 +3,10 @@
 mod amplitude;
 mod paths;
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
-use dvi_tests::larger;
 use dvi_tests::systems::*;
+use dvi_tests::{Outcome, larger};
 
 /// The σ of fourth order on linear systems.
 fn fourth_order() -> f64 {

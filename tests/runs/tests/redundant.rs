@@ -1,6 +1,5 @@
 //! Constraints that depend on each other but for rounding, and such as do not.
 
-use dvi_core::error::StartError;
 use dvi_core::prelude::*;
 use dvi_tests::Numbers;
 

@@ -1,11 +1,9 @@
 //! Round-off: what a step leaves over has no direction, and no coordinate pays for the size of another.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_examples::models::{Rotation, RotationState};
-use dvi_tests::Outcome;
-use dvi_tests::apart;
 use dvi_tests::configurations::quasi_periodic;
+use dvi_tests::{Outcome, apart};
 
 /// ½ΣΓ|z|², which σ = ½ conserves but for rounding.
 const ANGULAR: usize = 2;

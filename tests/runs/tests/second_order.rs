@@ -1,7 +1,6 @@
 //! The energy of Gauss collocation on q'' = f(q, t), where the velocities of the stages are eliminated, does
 //! not drift; nor does that of as many interior nodes, or where L has terms that are linear in the velocity.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::{KEPLER, Kepler, pericentre};
 use dvi_tests::{Outcome, larger};

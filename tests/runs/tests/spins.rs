@@ -1,6 +1,5 @@
 //! Spins over a million steps: lengths, the total spin and the energy.
 
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::{Outcome, apart, larger};
 

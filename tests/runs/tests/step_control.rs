@@ -5,11 +5,9 @@ use approx::{abs_diff_eq, relative_eq};
 use core::f64::consts::{PI, TAU};
 use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
-use dvi_core::run::StepControl;
 use dvi_examples::osculating::Osculating;
-use dvi_tests::Outcome;
-use dvi_tests::larger;
 use dvi_tests::zoo::regular::{KEPLER, Kepler, KeplerState, Relativistic, RelativisticState, pericentre};
+use dvi_tests::{Outcome, larger};
 
 fn lobatto4() -> Result<Variational<Radial>, StartError> {
     Ok(Variational::new(Quadrature::lobatto(4)?).phase_fitted(Radial(Reading::Variational)))
