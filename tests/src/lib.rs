@@ -85,6 +85,19 @@ pub fn failing<S: Lagrangian, M: Method<S, f64>>(
     Err("no step fails".into())
 }
 
+/// The parameter or the option that is why a run does not begin.
+///
+/// # Panics
+/// If it begins, or something else is why.
+#[track_caller]
+pub fn refused_option<R>(begun: Result<R, StartError>) -> &'static str {
+    match begun.map(drop) {
+        Err(StartError::Parameter { name, .. }) => name,
+        Err(StartError::Unsupported { option, .. }) => option,
+        other => panic!("{other:?}"),
+    }
+}
+
 /// The vortex configurations of the literature.
 pub mod configurations {
     use dvi_examples::models::{self, Case};

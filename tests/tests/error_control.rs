@@ -8,7 +8,7 @@ use dvi_core::prelude::*;
 use dvi_core::run::ControlledRun;
 use dvi_tests::configurations::chaotic;
 use dvi_tests::zoo::regular::*;
-use dvi_tests::{Outcome, apart, larger};
+use dvi_tests::{Outcome, apart, larger, refused_option};
 
 mod breaks;
 mod grazes;
@@ -218,23 +218,22 @@ fn a_head_on_collision_ends_with_an_error_at_the_last_good_state() -> Outcome {
 
 #[test]
 fn options_and_methods_out_of_range_are_refused() {
-    let refusal = |relative, absolute| {
+    let refused = |control| {
+        refused_option(Integrator::controlled(&KEPLER, Gauss::<2>::new(), control, pericentre(0.5)))
+    };
+    let of_tolerance = |relative, absolute| {
         let control =
             ErrorControl { tolerance: Tolerance { relative, absolute }, ..ErrorControl::new(1.0, 0.1) };
-        Integrator::controlled(&KEPLER, Gauss::<2>::new(), control, pericentre(0.5)).err()
+        refused(control)
     };
     for relative in [0.0, -1.0, 1e-17, f64::NAN, f64::INFINITY] {
-        let error = refusal(relative, 0.0);
-        assert!(matches!(error, Some(StartError::Parameter { name: "relative", .. })), "{error:?}");
+        assert_eq!(of_tolerance(relative, 0.0), "relative");
     }
     for absolute in [-1.0, f64::NAN, f64::INFINITY] {
-        let error = refusal(1e-3, absolute);
-        assert!(matches!(error, Some(StartError::Parameter { name: "absolute", .. })), "{error:?}");
+        assert_eq!(of_tolerance(1e-3, absolute), "absolute");
     }
     for longest_step in [0.0, -1.0, f64::NAN] {
-        let control = ErrorControl { longest_step, ..ErrorControl::new(1e-3, 0.1) };
-        let error = Integrator::controlled(&KEPLER, Gauss::<2>::new(), control, pericentre(0.5)).err();
-        assert!(matches!(error, Some(StartError::Parameter { name: "longest_step", .. })), "{error:?}");
+        assert_eq!(refused(ErrorControl { longest_step, ..ErrorControl::new(1e-3, 0.1) }), "longest_step");
     }
     let control = ErrorControl::new(1e-6, 0.1);
     let error = Integrator::controlled(&KEPLER, Variational::trapezoid(), control, pericentre(0.5)).err();

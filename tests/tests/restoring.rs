@@ -32,11 +32,5 @@ fn a_limit_of_the_energy_error_ends_any_run() -> Outcome {
     ends(&Oscillator { omega: 1.0 }, leapfrog, [10.0, 1.05], OscillatorState { x: 1.0, y: 0.0 })?;
     // Verlet steps over the centre of a head-on orbit.
     let (kepler, start) = (Kepler { mu: 1.0 }, KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 });
-    ends(&kepler, Variational::trapezoid(), [0.1, 0.01], start)?;
-    for limit in [0.0, -1.0, f64::NAN] {
-        let limited = EnergyLimit { method: Variational::trapezoid(), limit };
-        let error = Integrator::new(&kepler, limited, 0.01, start).err();
-        assert!(matches!(error, Some(StartError::Parameter { name: "limit", .. })), "{error:?}");
-    }
-    Ok(())
+    ends(&kepler, Variational::trapezoid(), [0.1, 0.01], start)
 }
