@@ -309,17 +309,10 @@ fn a_run_on_a_straight_path_can_be_written() -> Outcome {
     Ok(())
 }
 
-/// Two numbers, one of which is the momentum of the other.
-#[degenerate_lagrangian(
-    coordinates(q, p),
-    one_form = p * d(q),
-    hamiltonian = (p * p + q * q) / 2.0,
-)]
-struct Wave;
-
 #[test]
 fn a_system_with_velocities_does_not_go_on_from_a_checkpoint_without_any() -> Outcome {
-    let run = Integrator::new(&Wave, RungeKutta::classical(), 0.1, WaveState { q: 0.5, p: 1.0 })?;
+    let (oscillator, start) = (Oscillator { omega: 1.0 }, OscillatorState { x: 0.5, y: 1.0 });
+    let run = Integrator::new(&oscillator, RungeKutta::classical(), 0.1, start)?;
     let error = Integrator::resume(&KEPLER, RungeKutta::classical(), &run.checkpoint()).err();
     let expected = CheckpointError::Size { what: "velocities", expected: 2, found: 0 };
     assert_eq!(error, Some(StartError::Checkpoint(expected)));

@@ -55,13 +55,9 @@ fn a_short_matrix_behind_a_reference() {
 }
 
 #[test]
-fn a_neighbour_beyond_the_end() {
+fn a_neighbour_beyond_the_end_or_before_the_beginning() {
     let system = Neighbours { n: 4, table: vec![vec![0.0; 3]; 4] };
     assert_eq!(system.check(), Err(IndexError { array: "y", index: 4, len: 4 }));
-}
-
-#[test]
-fn a_neighbour_before_the_beginning() {
     assert_eq!(Predecessors { n: 3 }.check(), Err(IndexError { array: "y", index: -1, len: 3 }));
     assert_eq!(Predecessors { n: 1 }.check(), Ok(()));
 }

@@ -3,11 +3,10 @@
 use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
+use dvi_tests::zoo::impacts::{Ball, BallState, BallStateOf};
 use num_dual::{Dual64, DualNum};
 
-/// A ball above a floor.
-#[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y, impact = y)]
-struct Ball;
+const BALL: Ball = Ball { m: 1.0 };
 
 /// Steps of these methods are exact in free fall.
 fn method(restitution: f64) -> Impacts<Variational<Unfitted, Trapezoid>> {
@@ -60,11 +59,11 @@ fn a_condition_is_met_before_an_impact_behind_it_and_there() -> Outcome {
             let start = [Dual64::from(y).derivative(), Dual64::from(v)];
             let mut expected = met(restitution, start, [k, level, end]).into_iter();
             let case = format!("h = {h}, from {y}, {v}, e = {restitution}, k = {k}, level {level}");
-            let mut plain = Integrator::new(&Ball, method(restitution), h, BallState { y, dot_y: v })?;
+            let mut plain = Integrator::new(&BALL, method(restitution), h, BallState { y, dot_y: v })?;
             let mut plain =
                 plain.events([Direction::Either], |_, ball| [ball.y + k * ball.dot_y - level])?;
             let start = BallStateOf::<Dual64> { y: start[0], dot_y: start[1] };
-            let mut dual = Integrator::new(&Ball, method(restitution), h.into(), start)?;
+            let mut dual = Integrator::new(&BALL, method(restitution), h.into(), start)?;
             let mut dual = dual.events([Direction::Either], |_, ball| [ball.y + ball.dot_y * k - level])?;
             while let Some(event) = dual.next_until(end.into())? {
                 let exact = expected.next().ok_or(format!("{event:?} of none: {case}"))?;
@@ -85,7 +84,7 @@ fn a_state_at_a_jump_is_that_behind_it() -> Outcome {
     let speed = (dot_y * dot_y + y * 2.0).sqrt();
     for h in [0.02, 0.176, 0.5, 1.1] {
         let start = BallStateOf::<Dual64> { y, dot_y };
-        let mut run = Integrator::new(&Ball, method(1.0), Dual64::from(h), start)?;
+        let mut run = Integrator::new(&BALL, method(1.0), Dual64::from(h), start)?;
         let mut events = run.events([Direction::Rising], |_, ball| [ball.dot_y])?;
         let Event { time, state, .. } = events.next_until(Dual64::from(3.0))?.ok_or("it bounces")?;
         for (found, exact) in [(time, dot_y + speed), (state.dot_y, speed), (state.y, Dual64::from(0.0))] {
@@ -101,7 +100,7 @@ fn an_impact_at_the_end_of_a_step_has_derivatives() -> Outcome {
     for (h, y, dot_y) in [(0.125, 0.5, 0.0), (1.0, 0.5, 0.0), (0.25, 0.0, -1.0)] {
         let start = BallStateOf::<Dual64> { y: Dual64::from(y).derivative(), dot_y: dot_y.into() };
         let landing = start.dot_y + (start.dot_y * start.dot_y + start.y * 2.0).sqrt();
-        let mut run = Integrator::new(&Ball, method(1.0), Dual64::from(h), start)?;
+        let mut run = Integrator::new(&BALL, method(1.0), Dual64::from(h), start)?;
         let time = run.events([Direction::Rising], |_, ball| [ball.dot_y])?.next_until(2.0.into())?;
         assert_eq!(time.map(|event| (event.time.re, event.time.eps)), Some((landing.re, landing.eps)));
         let later = run.time() + 0.25;
@@ -118,7 +117,7 @@ fn an_impact_at_the_end_of_a_step_has_derivatives() -> Outcome {
 #[test]
 fn a_gap_is_met_at_each_impact_and_on_one_side() -> Outcome {
     for h in [0.013, 0.1, 0.37, 2.9] {
-        let run = || Integrator::new(&Ball, method(1.0), h, BallState { y: 0.7, dot_y: 0.1 });
+        let run = || Integrator::new(&BALL, method(1.0), h, BallState { y: 0.7, dot_y: 0.1 });
         for (direction, expected) in
             [(Direction::Falling, 20), (Direction::Either, 20), (Direction::Rising, 0)]
         {
@@ -132,7 +131,7 @@ fn a_gap_is_met_at_each_impact_and_on_one_side() -> Outcome {
             assert_eq!(met, expected, "h = {h}, {direction:?}");
         }
         let start = BallStateOf::<Dual64> { y: 0.7.into(), dot_y: Dual64::from(0.1).derivative() };
-        let mut run = Integrator::new(&Ball, method(1.0), h.into(), start)?;
+        let mut run = Integrator::new(&BALL, method(1.0), h.into(), start)?;
         let event = run.events([Direction::Falling], |_, ball| [ball.y])?.next_until(2.0.into())?;
         let Event { time, state, .. } = event.ok_or("it bounces")?;
         let speed = (start.dot_y * start.dot_y + start.y * 2.0).sqrt();
@@ -146,7 +145,7 @@ fn a_gap_is_met_at_each_impact_and_on_one_side() -> Outcome {
 #[test]
 fn events_of_an_impact_are_handed_out_when_the_state_is_set_and_when_the_next_step_fails() -> Outcome {
     let start = BallState { y: 0.5, dot_y: 0.0 };
-    let mut run = Integrator::new(&Ball, method(1.0), 0.1, start)?;
+    let mut run = Integrator::new(&BALL, method(1.0), 0.1, start)?;
     let mut events = run.events([Direction::Rising; 2], |_, ball| [ball.dot_y, ball.dot_y - 0.1])?;
     let Event { index, time, state } = events.next_until(1.5)?.ok_or("it bounces")?;
     events.set_state(time, state)?;
@@ -154,7 +153,7 @@ fn events_of_an_impact_are_handed_out_when_the_state_is_set_and_when_the_next_st
     assert_eq!((index, next), (0, Some((1, time))));
 
     // Impacts accumulate at t = 3.
-    let mut run = Integrator::new(&Ball, method(0.5), 0.3, start)?;
+    let mut run = Integrator::new(&BALL, method(0.5), 0.3, start)?;
     let events = run.events([Direction::Rising], |_, ball| [ball.dot_y])?;
     let last = events.map_while(Result::ok).last().map(|event| event.state.dot_y);
     assert_abs_diff_eq!(last.ok_or("it bounces in the last good step")?, 0.125, epsilon = 1e-12);
@@ -164,7 +163,7 @@ fn events_of_an_impact_are_handed_out_when_the_state_is_set_and_when_the_next_st
 /// Impacts accumulate at t = 3.
 #[test]
 fn states_within_the_last_good_step_are_known_when_one_on_the_way_fails() -> Outcome {
-    let run = || Integrator::new(&Ball, method(0.5), 0.3, BallState { y: 0.5, dot_y: 0.0 });
+    let run = || Integrator::new(&BALL, method(0.5), 0.3, BallState { y: 0.5, dot_y: 0.0 });
     let [mut at_once, mut one_by_one] = [Dense::new(run()?)?, Dense::new(run()?)?];
     assert!(at_once.advance_to(10.0).is_err());
     while one_by_one.advance().is_ok() {}
@@ -182,7 +181,7 @@ fn states_right_behind_an_impact_are_known_in_long_steps() -> Outcome {
     for i in 0..200 {
         let [a, b] = [0.8191725, 0.6710436].map(|irrational| (0.5 + f64::from(i) * irrational).fract());
         let (h, y) = (2.5 + 2.5 * a, 0.4 + 0.4 * b);
-        let mut run = Dense::new(Integrator::new(&Ball, method(1.0), h, BallState { y, dot_y: 0.0 })?)?;
+        let mut run = Dense::new(Integrator::new(&BALL, method(1.0), h, BallState { y, dot_y: 0.0 })?)?;
         let flight = (2.0 * y).sqrt();
         run.advance_to(20.0)?;
         // The last impact in the last step, or where the one before it has ended.
