@@ -35,12 +35,9 @@ fn check_against_closed_form(h: f64, direction: Direction) -> Outcome {
         };
         let steps = ((angle - phase) / turn(h)).floor();
         let time = steps * h + 2.0 * ((angle - phase - steps * turn(h)) / 2.0).tan();
-        assert!(
-            abs_diff_eq!(crossing.time, time, epsilon = 1e-12),
-            "{direction:?}, {h}: {} {time}",
-            crossing.time
-        );
-        let in_place = larger(crossing.state.x.abs(), (crossing.state.y - y).abs());
+        let (found, in_place) =
+            (crossing.time, larger(crossing.state.x.abs(), (crossing.state.y - y).abs()));
+        assert!(abs_diff_eq!(found, time, epsilon = 1e-12), "{direction:?}, {h}: {found} {time}");
         assert!(in_place < 1e-13, "{direction:?}, {h}: {in_place:e}");
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Where runs with constraints can begin, and what is said where they cannot.
 
-use approx::{abs_diff_eq, relative_eq};
+use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 use dvi_tests::zoo::constrained::*;
@@ -132,10 +132,8 @@ fn far_and_near_states_are_projected() -> Outcome {
             for (found, expected) in [(found.x, x / radius), (found.y, y / radius)] {
                 assert!(abs_diff_eq!(found, expected, epsilon = 1e-14), "{size:e} ({x}, {y}): {found}");
             }
-            assert!(
-                abs_diff_eq!(found.x * found.x + found.y * found.y, 1.0, epsilon = 3.0 * f64::EPSILON),
-                "{found:?}"
-            );
+            let off = found.x * found.x + found.y * found.y - 1.0;
+            assert!(off.abs() <= 3.0 * f64::EPSILON, "{found:?}");
             Integrator::new(&PENDULUM, Rattle::default(), 0.01, found)?;
         }
     }
@@ -202,10 +200,7 @@ fn several_constraints_are_met_from_far_away() -> Outcome {
         for i in 0..20 {
             let (before, here) = (if i == 0 { (0.0, 0.0) } else { joint(i - 1) }, joint(i));
             let length = f64::hypot(here.0 - before.0, here.1 - before.1);
-            assert!(
-                relative_eq!(length, system.rod[i], epsilon = 0.0, max_relative = 1e-13),
-                "{size:e}, rod {i}: {length}"
-            );
+            assert!((length / system.rod[i] - 1.0).abs() < 1e-13, "{size:e}, rod {i}: {length}");
         }
         Integrator::new(&system, Rattle::default(), 0.01, found)?;
     }
