@@ -2,7 +2,7 @@
 //! come from, and what happens where they are not known.
 
 use approx::assert_abs_diff_eq;
-use dvi_tests::Outcome;
+use dvi_tests::{Outcome, failing};
 use std::cell::Cell;
 
 use dvi_core::error::OutsideError;
@@ -239,13 +239,11 @@ fn a_table_that_is_not_asked_is_not_to_blame() -> Outcome {
     let system = Guarded { slope: Table };
     let start = GuardedState { x: 2.2, dot_x: 2.0 };
     assert!(system.energy_at(0.0, &start).is_ok());
-    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start)?;
-    let error = run.take_steps(100).err().ok_or("an error")?;
+    let (_, error) = failing(&system, Variational::trapezoid(), 0.1, start)?;
     assert!(matches!(error.failure, StepFailure::NotFinite { .. }), "{error}");
     // From where it is asked.
     let start = GuardedState { x: 0.2, dot_x: -1.0 };
-    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start)?;
-    let error = run.take_steps(100).err().ok_or("an error")?;
+    let (_, error) = failing(&system, Variational::trapezoid(), 0.1, start)?;
     assert!(matches!(error.failure, StepFailure::Outside(_)), "{error}");
     let start = GuardedState { x: -0.2, dot_x: -1.0 };
     let error = Integrator::new(&system, Variational::trapezoid(), 0.1, start).err().ok_or("an error")?;
@@ -268,8 +266,7 @@ struct Fast {
 fn whatever_drives_a_run_out_of_the_table_is_seen() -> Outcome {
     macro_rules! ends_outside {
         ($system:expr, $start:expr, $h:expr, [$($method:expr),* $(,)?]) => {$(
-            let mut run = Integrator::new(&$system, $method, $h, $start)?;
-            let error = run.take_steps(1000).err().ok_or("an error")?;
+            let (_, error) = failing(&$system, $method, $h, $start)?;
             assert!(matches!(error.failure, StepFailure::Outside(_)), "{}: {error}", stringify!($method));
         )*};
     }
@@ -290,8 +287,7 @@ fn other_failures_are_not_laid_on_the_table() -> Outcome {
     let system = Falling { slope: Table };
     let start = FallingState { x: 1.0, dot_x: 0.0 };
     let limited = EnergyLimit { method: Variational::trapezoid(), limit: 1e-9 };
-    let mut run = Integrator::new(&system, limited, 0.1, start)?;
-    let error = run.take_steps(1000).err().ok_or("an error")?;
+    let (_, error) = failing(&system, limited, 0.1, start)?;
     assert!(matches!(error.failure, StepFailure::Energy { .. }), "{error}");
     Ok(())
 }

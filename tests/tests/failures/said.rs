@@ -5,6 +5,7 @@ use core::fmt::{Debug, Display};
 
 use dvi_core::error::{CheckpointError, IndexError, LengthError};
 use dvi_core::prelude::*;
+use dvi_tests::failing;
 
 /// Masses that are driven away.
 #[lagrangian(
@@ -20,8 +21,7 @@ fn are_one<E: Debug + Display>(error: &E) {
 #[test]
 fn errors_of_a_step_are_their_sentences() -> Result<(), Box<dyn Error>> {
     let start = DrivenState { y: 0.0, dot_y: 0.0, x: [0.0, 0.1, 600.0, 0.2], dot_x: [0.0; 4] };
-    let mut run = Integrator::new(&Driven {}, Variational::trapezoid(), 0.1, start)?;
-    let error = run.take_steps(10).err().ok_or("no error")?;
+    let (_, error) = failing(&Driven {}, Variational::trapezoid(), 0.1, start)?;
     assert!(matches!(error.failure, StepFailure::NotFinite { coordinate: 3, .. }), "{error}");
     let message = error.to_string();
     assert!(

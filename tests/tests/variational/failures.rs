@@ -5,8 +5,8 @@ use approx::abs_diff_eq;
 use dvi_core::discrete::Frequency;
 use dvi_core::prelude::*;
 use dvi_core::{Real, Scalar};
-use dvi_tests::refused_option;
 use dvi_tests::zoo::regular::*;
+use dvi_tests::{failing, refused_option};
 
 fn state(x: f64, dot_y: f64) -> KeplerState {
     KeplerState { x, y: 0.0, dot_x: 0.0, dot_y }
@@ -68,13 +68,9 @@ fn a_step_over_half_a_turn_of_the_motion_is_refused() -> Outcome {
     {
         let method = Variational::new(rule).phase_fitted(Radial(reading));
         // The frequency of the circular orbit is one.
-        let mut run = Integrator::new(&KEPLER, method, 3.5, state(1.0, 1.0))?;
-        let error = run.advance().err();
-        let Some(StepError { step: 0, failure: StepFailure::Resonance { u, .. }, .. }) = error else {
-            return Err(format!("{reading:?}: {error:?}").into());
-        };
-        assert!(u >= core::f64::consts::PI, "{u}");
-        assert_eq!(run.q(), [1.0, 0.0]);
+        let (run, error) = failing(&KEPLER, method, 3.5, state(1.0, 1.0))?;
+        let StepFailure::Resonance { u, .. } = error.failure else { return Err(error.into()) };
+        assert!(run.steps() == 0 && u >= core::f64::consts::PI, "{u}");
     }
     Ok(())
 }
@@ -104,8 +100,7 @@ impl Frequency for Partial {
 #[test]
 fn a_frequency_that_is_not_defined_is_an_error_of_its_own() -> Outcome {
     fn check<M: Method<Kepler, f64>>(method: M) -> Outcome {
-        let mut run = Integrator::new(&KEPLER, method, 0.05, state(1.0, 1.0))?;
-        let error = run.take_steps(100).err().ok_or("no error")?;
+        let (run, error) = failing(&KEPLER, method, 0.05, state(1.0, 1.0))?;
         assert!(run.q()[0] > 0.85 && run.steps() > 3, "{error}");
         assert!(matches!(error.failure, StepFailure::Frequency { omega } if omega.is_nan()), "{error}");
         Ok(())
