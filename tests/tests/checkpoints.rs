@@ -1,4 +1,5 @@
-//! What runs go on from, beside what the law of checkpoints asks of every scheme and archives of step controls.
+//! What runs go on from, beside what the law of checkpoints asks of every scheme and archives of step
+//! controls.
 
 use dvi_core::error::CheckpointError;
 use dvi_core::field::{Axis, Spline};

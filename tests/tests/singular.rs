@@ -1,5 +1,5 @@
-//! A mass matrix that becomes singular ends a run: no step goes over to the other side. Masses and two-forms of
-//! a lower rank are refused in any units.
+//! A mass matrix that becomes singular ends a run: no step goes over to the other side. Masses and two-forms
+//! of a lower rank are refused in any units.
 
 use dvi_core::prelude::*;
 use dvi_tests::{Numbers, Outcome, failing};

@@ -35,7 +35,8 @@ fn assert_at_origin<const N: usize>(hamiltonian: &str, found: ([f64; N], Vec<f64
 /// Of coordinates, α and the number of coordinates: a name, H, and its second derivatives at the origin, row
 /// by row.
 macro_rules! at_the_origin {
-    ($test:ident, $coordinates:tt, $form:expr, $n:literal; $($name:ident: $hamiltonian:expr => $second:expr;)+) => {
+    ($test:ident, $coordinates:tt, $form:expr, $n:literal;
+        $($name:ident: $hamiltonian:expr => $second:expr;)+) => {
         $(
             #[degenerate_lagrangian(coordinates $coordinates, one_form = $form, hamiltonian = $hamiltonian)]
             struct $name;

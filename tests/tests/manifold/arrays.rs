@@ -16,14 +16,16 @@ macro_rules! turning {
             coordinates(x, s[$size]: S2, R[$size]: SO3),
             lagrangian = sum(0..$size, |i| sum(0..$size, |j| m[i][j] * dot(s[i]).dot(dot(s[j])))) / 2.0
                 - sum(0..$size, |i| g[i] * s[i][2])
-                + sum(0..$size, |i| inertia[i][0] * omega(R[i])[0].powi(2) + inertia[i][1] * omega(R[i])[1].powi(2)
+                + sum(0..$size, |i| inertia[i][0] * omega(R[i])[0].powi(2)
+                    + inertia[i][1] * omega(R[i])[1].powi(2)
                     + inertia[i][2] * omega(R[i])[2].powi(2)) / 2.0
                 + dot(x).powi(2) / 2.0 - x * x
                 - sum_pairs(0..$size, |i, j| pull * R[i].column(0).dot(R[j].column(1)))
                 - sum(0..$size, |i| x * R[i][2][2] + pull * s[i].dot(R[i].column(2))),
             momenta(vertical = sum(0..$size, |i| sum(0..$size, |j| m[i][j] * s[i].cross(dot(s[j]))))[2]
                 + sum(0..$size, |i| inertia[i][0] * omega(R[i])[0] * R[i][2][0]
-                    + inertia[i][1] * omega(R[i])[1] * R[i][2][1] + inertia[i][2] * omega(R[i])[2] * R[i][2][2])),
+                    + inertia[i][1] * omega(R[i])[1] * R[i][2][1]
+                    + inertia[i][2] * omega(R[i])[2] * R[i][2][2])),
             events(upright = R[1][2][2] - 0.5),
         )]
         #[derive(Debug)]
@@ -42,10 +44,12 @@ turning!(Listed, g.len(), Vec<Vec<f64>>, Vec<f64>, Vec<[f64; 3]>);
 /// Two of them by name.
 #[lagrangian(
     coordinates(x, s0: S2, s1: S2, R0: SO3, R1: SO3),
-    lagrangian = (m[0][0] * dot(s0).norm_squared() + m[1][1] * dot(s1).norm_squared()) / 2.0 + m[0][1] * dot(s0).dot(dot(s1))
+    lagrangian = (m[0][0] * dot(s0).norm_squared() + m[1][1] * dot(s1).norm_squared()) / 2.0
+        + m[0][1] * dot(s0).dot(dot(s1))
         - g[0] * s0[2] - g[1] * s1[2]
-        + (inertia[0][0] * omega(R0)[0].powi(2) + inertia[0][1] * omega(R0)[1].powi(2) + inertia[0][2] * omega(R0)[2].powi(2)
-            + inertia[1][0] * omega(R1)[0].powi(2) + inertia[1][1] * omega(R1)[1].powi(2) + inertia[1][2] * omega(R1)[2].powi(2)) / 2.0
+        + (inertia[0][0] * omega(R0)[0].powi(2) + inertia[0][1] * omega(R0)[1].powi(2)
+            + inertia[0][2] * omega(R0)[2].powi(2) + inertia[1][0] * omega(R1)[0].powi(2)
+            + inertia[1][1] * omega(R1)[1].powi(2) + inertia[1][2] * omega(R1)[2].powi(2)) / 2.0
         + dot(x).powi(2) / 2.0 - x * x - x * R0[2][2] - x * R1[2][2]
         - pull * (R0.column(0).dot(R1.column(1)) + s0.dot(R0.column(2)) + s1.dot(R1.column(2))),
 )]

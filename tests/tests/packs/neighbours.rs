@@ -5,8 +5,8 @@ use dvi_core::prelude::*;
 
 use super::{SIZES, gradients_agree, numbers};
 
-/// Terms that add to several entries of one array: beside one another, as far apart as a pack has terms, nearly
-/// so far, and farther.
+/// Terms that add to several entries of one array: beside one another, as far apart as a pack has terms,
+/// nearly so far, and farther.
 #[degenerate_lagrangian(
     coordinates(x[n], y[n]),
     one_form = sum(0..n, |j| y[j] * d(x[j])),
