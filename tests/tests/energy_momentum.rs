@@ -97,6 +97,13 @@ fn a_limit_of_the_energy_goes_around_the_method() -> Outcome {
     #[derive(Clone, Debug)]
     struct Quartic;
     let start = QuarticState { x: 1.0, dot_x: 0.0 };
+    let mut run = Integrator::controlled(&Quartic, method, EnergyMomentum::new(0.01), start)?;
+    let (mut longest, mut energy) = (0.0, 0.0);
+    for _ in 0..3000 {
+        run.advance()?;
+        (longest, energy) = (larger(longest, run.step_size()), larger(energy, run.energy()));
+    }
+    assert!((5.0..7.0).contains(&longest) && (10.0..12.0).contains(&energy), "{longest} {energy}");
     let mut run = Integrator::controlled(&Quartic, limited, EnergyMomentum::new(0.01), start)?;
     assert!(run.take_steps(3000).is_err());
     assert_abs_diff_eq!(run.energy(), 0.25, epsilon = 0.05);
