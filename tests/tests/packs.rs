@@ -24,8 +24,8 @@ fn numbers(count: usize, seed: usize) -> Vec<f64> {
     (0..count).map(|j| number(1000 * seed + j)).collect()
 }
 
-/// Compares what `together` sets its output to at a point and a time with what `alone` does in each lane, bit
-/// for bit.
+/// Compares what `together` sets its output to at a point and a time with what `alone` does in each lane,
+/// bit for bit.
 #[track_caller]
 pub(crate) fn lanes_agree(
     q: &[f64],

@@ -13,10 +13,10 @@ const POINTS: usize = 4;
 
 /// The work ∫ F·q' dt that the forces on a system have done along a run.
 ///
-/// Where the Lagrangian does not depend on time, and no constraint moves, the energy changes by this work. So
-/// the difference of the two is the error of the method and of this integral, which is of order four if every
-/// state is recorded. Constraints g(q, t) = 0 that depend on time, and A v + b = 0 with a b that is not zero,
-/// do work that is not in it.
+/// Where the Lagrangian does not depend on time, and no constraint moves, the energy changes by this work.
+/// So the difference of the two is the error of the method and of this integral, which is of order four if
+/// every state is recorded. Constraints g(q, t) = 0 that depend on time, and A v + b = 0 with a b that is
+/// not zero, do work that is not in it.
 ///
 /// ```
 /// use dvi_core::diagnostics::Work;

@@ -40,8 +40,9 @@ use memory::ConstrainedMemory;
 /// Lagrange and d'Alembert (Cortés & Martínez 2001). Each step is solved by Newton's method for q1 and ι0
 /// together; along a chain its equations are banded. RATTLE with up to ten constraints and a separable L, as
 /// [`Rattle`], evaluates the force once and no second derivative of L: its equations are those for ι0 alone,
-/// with a full matrix. A run that begins where a coordinate is light against others, or where the constraints
-/// leave several coordinates no way to move, as six rods and more that hang in a line, solves for all.
+/// with a full matrix. A run that begins where a coordinate is light against others, or where the
+/// constraints leave several coordinates no way to move, as six rods and more that hang in a line, solves
+/// for all.
 ///
 /// On holonomic constraints the steps preserve dq ∧ dp, and the momentum maps of symmetries that act
 /// linearly and leave L and g as they are (Marsden & West 2001, section 3.5.2; Wendlandt & Marsden 1997).

@@ -21,8 +21,8 @@ use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 /// The step that goes beyond the limit fails with [`StepFailure::Energy`], and the run stays at the state
 /// before it. Meant for systems whose Lagrangian and constraints do not depend on time; of others it limits
 /// by how much the energy may change. Each step costs a copy of what the method carries and one evaluation
-/// of the energy, of a regular system one of the velocity too; on a Lagrangian that is not ½ v·M v − V(q, t),
-/// of a size known at run time only, that allocates.
+/// of the energy, of a regular system one of the velocity too; on a Lagrangian that is not
+/// ½ v·M v − V(q, t), of a size known at run time only, that allocates.
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/kepler.txt")]

@@ -40,9 +40,9 @@ use tangents::{Legendre, TangentMass};
 /// and two of a unit vector, and moves along it (Marsden, Pekarsky & Shkoller 1999; Lee, Leok & McClamroch
 /// 2007, 2009). By the trapezoidal rule it is explicit where L = ½ v·M v − V(q, t), M couples nothing, and a
 /// rotation has three equal moments of inertia: of spherical pendulums that hang by themselves, and of
-/// rotors with forces between them. A run carries a rotation as a quaternion, with what rounding leaves out of it. Its length
-/// says nothing, so that it need not be corrected: the matrix that is made of it is orthogonal to rounding
-/// after 10⁷ steps as after one, which the experiment `top` of the gallery measures.
+/// rotors with forces between them. A run carries a rotation as a quaternion, with what rounding leaves out
+/// of it. Its length says nothing, so that it need not be corrected: the matrix that is made of it is
+/// orthogonal to rounding after 10⁷ steps as after one, which the experiment `top` of the gallery measures.
 ///
 /// The steps preserve the canonical form on T*Q and the momenta of rotations of space that leave L as it is.
 /// Their order is two for every rule that is exact for linear functions, and one for others; a

@@ -94,10 +94,11 @@ macro_rules! beside {
     ($name:ident, $mixed:expr) => {
         #[lagrangian(
             coordinates(R: SO3, s: S2, x),
-            lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2) + inertia[2] * omega(R)[2].powi(2)) / 2.0
-                + sum(0..3, |i| dot(s[i]).powi(2)) + dot(x).powi(2)
-                + coupling * (0.3 * omega(R)[0] * omega(R)[2] + 0.4 * dot(x) * omega(R)[1])
-                - s[0] * R[0][2] - s[1] * R[1][2] - 0.7 * s[2] - x * x * (1.0 + R[2][0]) - t.cos() * R[1][1] + $mixed,
+            lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2)
+                    + inertia[2] * omega(R)[2].powi(2)) / 2.0 + sum(0..3, |i| dot(s[i]).powi(2))
+                + dot(x).powi(2) + coupling * (0.3 * omega(R)[0] * omega(R)[2] + 0.4 * dot(x) * omega(R)[1])
+                - s[0] * R[0][2] - s[1] * R[1][2] - 0.7 * s[2] - x * x * (1.0 + R[2][0]) - t.cos() * R[1][1]
+                + $mixed,
         )]
         #[derive(Clone, Copy, Debug)]
         pub struct $name {

@@ -82,11 +82,13 @@ pub(crate) struct Disc<P> {
 /// sums stand in both, and the time.
 #[lagrangian(
     coordinates(x[headings.len()], y[headings.len()], w),
-    lagrangian = sum(0..headings.len(), |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 + (1.0 + w * w) * dot(w).powi(2),
+    lagrangian = sum(0..headings.len(), |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0
+        + (1.0 + w * w) * dot(w).powi(2),
     nonholonomic(i in 0..headings.len()) =
         dot(x[i]) * (headings[i] + t * w).sin() - dot(y[i]) * (headings[i] + t * w).cos(),
     nonholonomic = dot(w) - sum(0..headings.len(), |j| x[j] * dot(y[j]) - (j as f64) * t.powi(2)),
-    nonholonomic(k in 1..headings.len() - 1) = (x[k] - x[k - 1]) * (dot(x[k]) - dot(x[k - 1])) + t * dot(w) * y[k + 1].exp(),
+    nonholonomic(k in 1..headings.len() - 1) =
+        (x[k] - x[k - 1]) * (dot(x[k]) - dot(x[k - 1])) + t * dot(w) * y[k + 1].exp(),
 )]
 #[derive(Clone, Debug)]
 pub(crate) struct Train {
@@ -97,7 +99,8 @@ pub(crate) struct Train {
 #[lagrangian(
     coordinates(x[N], y[N]),
     lagrangian = sum(0..N, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0,
-    nonholonomic(i in 0..N) = if x[i] > 0.0 { dot(y[i]) - x[i] * dot(x[(i + 1) % N]) } else { dot(x[i]) + t },
+    nonholonomic(i in 0..N) =
+        if x[i] > 0.0 { dot(y[i]) - x[i] * dot(x[(i + 1) % N]) } else { dot(x[i]) + t },
 )]
 #[derive(Clone, Debug)]
 pub(crate) struct Ring<const N: usize>;

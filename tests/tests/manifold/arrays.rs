@@ -1,5 +1,5 @@
-//! Arrays of rotations and unit vectors: sizes of each kind against single names, what is conserved, and what
-//! knows of the entries.
+//! Arrays of rotations and unit vectors: sizes of each kind against single names, what is conserved, and
+//! what knows of the entries.
 
 use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;

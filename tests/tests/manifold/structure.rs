@@ -127,8 +127,8 @@ fn steps_on_the_sphere_preserve_the_canonical_form() {
     }
 }
 
-/// The step by kicks, and the general one, of a system that is the same but for a term of the size zero. Where
-/// nothing is coupled, and a ball turns as easily about each axis, nothing is solved.
+/// The step by kicks, and the general one, of a system that is the same but for a term of the size zero.
+/// Where nothing is coupled, and a ball turns as easily about each axis, nothing is solved.
 #[test]
 fn steps_by_kicks_are_those_of_the_general_equations() {
     const {

@@ -22,8 +22,8 @@ fn cosine_sum(rule: &impl Rule, u: f64) -> f64 {
     rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
 }
 
-/// The forces inside are evaluated in each iteration and once for the momentum, that at the end once if there is
-/// a node at one of the ends.
+/// The forces inside are evaluated in each iteration and once for the momentum, that at the end once if
+/// there is a node at one of the ends.
 #[test]
 fn no_force_is_evaluated_where_no_node_is() -> Outcome {
     let start = SpringState { x: 0.3, dot_x: 0.8 };

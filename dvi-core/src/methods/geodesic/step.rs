@@ -8,8 +8,8 @@
 //! with the forces f as p is, the torque in the body of a rotation and s × ∂L/∂s of a unit vector, and K_d
 //! the discrete Lagrangian of ½ v·M v. It is the general step, because there the forces of the first end do
 //! not depend on the displacement, and those of the last do no work where the last point is held. It
-//! evaluates one force. Where M is a mass of each block alone, the drift is free: its displacement is h p½/m,
-//! and p½ stays what it is.
+//! evaluates one force. Where M is a mass of each block alone, the drift is free: its displacement is
+//! h p½/m, and p½ stays what it is.
 
 use super::covectors::{depart, force, increment_of, velocity};
 use super::equations::{Begin, nodes};

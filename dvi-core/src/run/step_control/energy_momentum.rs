@@ -38,11 +38,11 @@ const ROUNDINGS: f64 = 4.0;
 ///
 /// Where another solution is nearer than the one that belongs to the steps before, or that one has ended,
 /// lengths jump. On a Kepler orbit of eccentricity 0.9 they do by a factor of two, and runs of the midpoint
-/// rule with first steps from 0.0003 to 0.03 end before they are half around. On the quartic spring x⁴/4 they
-/// grow from 0.01 up to 6, and the energy at the points goes from ¼ to 11, while E_d is what it was: an
-/// [`EnergyLimit`](crate::methods::EnergyLimit) around the method ends such a run. In dual numbers the derivative
-/// of h is that of an iteration before the last. The defect of E_d is at most 1e-14 of the larger of |E| and
-/// v·∂L/∂v at the start, or what rounding leaves.
+/// rule with first steps from 0.0003 to 0.03 end before they are half around. On the quartic spring x⁴/4
+/// they grow from 0.01 up to 6, and the energy at the points goes from ¼ to 11, while E_d is what it was: an
+/// [`EnergyLimit`](crate::methods::EnergyLimit) around the method ends such a run. In dual numbers the
+/// derivative of h is that of an iteration before the last. The defect of E_d is at most 1e-14 of the larger
+/// of |E| and v·∂L/∂v at the start, or what rounding leaves.
 ///
 /// A step takes several of the method, and six to seven times the evaluations of derivatives of one whose
 /// length is given, in the experiment `energy-momentum`: there steps of one length are nearer to the motion
