@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::covectors::{push, subtract_momentum};
+use super::covectors::{depart, push, subtract_momentum};
 use super::memory::MassRows;
 use super::node::{Forces, Node, Path};
 use super::tangents::{Equations, Tangents};
@@ -85,7 +85,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
         }
     }
 
-    /// Adds to `p` what L does to the momentum in the step.
+    /// Sets `p` to the momentum at the end of the displacement.
     #[inline]
     pub(super) fn balance(
         &self,
@@ -95,6 +95,9 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
         statistics: &mut Statistics,
     ) {
         let (system, path) = (self.system, self.path(displacement));
+        for block in blocks(system) {
+            depart(block, path, self.p, p);
+        }
         if self.mass.is_some() && !has_spheres::<S, T>() {
             return;
         }

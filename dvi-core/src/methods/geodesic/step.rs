@@ -11,7 +11,7 @@
 //! evaluates one force. Where M is a mass of each block alone, the drift is free: its displacement is
 //! h p½/m, and p½ stays what it is.
 
-use super::covectors::{depart, force, increment_of, velocity};
+use super::covectors::{force, increment_of, velocity};
 use super::equations::{Begin, nodes};
 use super::memory::{Arrival, GeodesicMemory, Kicks};
 use crate::discrete::Interval;
@@ -78,11 +78,12 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
         let Arrival { displacement, increment, lifted: next, q: q1, v, p: p1, force: f1 } = arrival;
         for block in blocks(system) {
             increment_of(block, begin.path(displacement), lifted, increment);
-            depart(block, begin.path(displacement), p0, p1);
         }
         carried.add(lifted, increment, next);
         manifold::lower(system, next, q1);
-        if free.is_none() {
+        if free.is_some() {
+            p1.copy_from_slice(p0);
+        } else {
             begin.balance(displacement, tangents, p1, statistics);
         }
         if kicks.is_some() {

@@ -91,7 +91,6 @@ impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
     /// # Errors
     /// [`StepFailure::NotFinite`].
     #[cold]
-    #[inline(never)]
     fn relative_residual(
         &mut self,
         equations: &impl Equations<S, T>,
