@@ -26,7 +26,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
         Self { omega: T::lift(0.0), dq, dv, acceleration, da, l: space.vectors() }
     }
 
-    /// ω at (`q`, `v`), where the force is `force`.
+    /// ω at (`q`, `v`), where the force is `force`. Whether that is a number the coefficients for it say.
     #[inline]
     pub(crate) fn evaluate<F: Frequency>(
         &mut self,
@@ -35,10 +35,9 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
         q: &[T],
         v: &[T],
         force: &[T],
-    ) -> Result<(), StepFailure> {
+    ) {
         mass.solve(force, &mut self.acceleration);
         self.omega = frequency.at(q, v, &self.acceleration);
-        defined(self.omega)
     }
 
     /// ω and its gradient at (`q`, `v`): da = M⁻¹∂²L/∂q∂q dq.

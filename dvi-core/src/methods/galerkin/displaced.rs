@@ -66,8 +66,8 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real>
         system.force(end, &[], interval.time(T::lift(1.0)), force);
         statistics.gradients += 1;
         let [first, last] = &mut **ends;
-        first.evaluate(*frequency, mass, q, velocity, &phase.force)?;
-        last.evaluate(*frequency, mass, end, velocity, force)?;
+        first.evaluate(*frequency, mass, q, velocity, &phase.force);
+        last.evaluate(*frequency, mass, end, velocity, force);
         let omega = T::lift(0.5) * (first.omega + last.omega);
         fit.to(omega * interval.h)
     }

@@ -73,9 +73,9 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
                 }
             };
             if F::OF_VELOCITY {
-                start.evaluate(frequency, mass, q, velocity, &phase.force)?;
+                start.evaluate(frequency, mass, q, velocity, &phase.force);
             }
-            end.evaluate(frequency, mass, next, velocity, force)?;
+            end.evaluate(frequency, mass, next, velocity, force);
         }
         let omega = T::lift(0.5) * (start.omega + end.omega);
         coefficients.set(self.method, [interval.h, omega])
@@ -134,7 +134,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
         }
         let (mass, velocity) = (begin.mass, &mut node.velocity);
         mass.solve(&phase.p, velocity);
-        start.evaluate(&method.frequency, mass, q, velocity, &phase.force)?;
+        start.evaluate(&method.frequency, mass, q, velocity, &phase.force);
         if READ == read::AT_THE_START {
             coefficients.set(*method, [*h, start.omega])?;
         }

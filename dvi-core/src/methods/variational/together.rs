@@ -79,7 +79,7 @@ where
                             q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals.iter())
                         {
                             *p += half * force;
-                            *q += h * (*p * reciprocal);
+                            *q += *p * (h * reciprocal);
                         }
                         system.force(q, &[], Lanes::all(clock.after(step + 1).time()), force);
                         for (p, &force) in p.iter_mut().zip(force.iter()) {

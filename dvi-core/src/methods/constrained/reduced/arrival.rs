@@ -104,13 +104,14 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
         system.force(q, &[], t, force);
         kick(p, half, force);
         if S::AUTONOMOUS {
-            // G M⁻¹p, with the rows of G M⁻¹, which are here.
+            // −G M⁻¹p, with the rows of G M⁻¹, which are here.
             for (value, solved) in values.iter_mut().zip(solved.iter()) {
-                *value = dot(solved, p);
+                *value = -dot(solved, p);
             }
         } else {
             mass.solve(p, v);
             S::Kind::of_velocity(system, q, v, t, values, &mut |_, _, _: T| ());
+            values.iter_mut().for_each(|value| *value = -*value);
         }
         // Of one constraint the matrix is its square. A quotient by zero is no number, which is seen where
         // the stride ends.
@@ -119,9 +120,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
         } else {
             solve(gram, [rows, solved], squares, values)?;
         }
-        for (impulse, &value) in impulses[1].iter_mut().zip(values.iter()) {
-            *impulse = -value;
-        }
+        impulses[1].copy_from_slice(values);
         combine(rows, &impulses[1], p);
         Some(())
     }
