@@ -63,7 +63,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
 
     /// Sets `out` to X at the points in the lanes of `q`, at the times in those of `t`, bit for bit as
     /// [`evaluate`](Self::evaluate) finds them one by one. What comes with `vector`, one lane, is storage.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn evaluate_in_lanes<const W: usize>(
         &mut self,
         system: &S,

@@ -110,7 +110,7 @@ impl<const W: usize, S, T: Real> FirstOrderAtStages<InLanes, W, S, T> for Degene
 where
     S: DegenerateLagrangian<T> + DegenerateLagrangian<Lanes<W, T>>,
 {
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_at_stages(
         equations: &mut FlowOnQ<S, T>,
         at: &AtStages<'_, W, S, T>,

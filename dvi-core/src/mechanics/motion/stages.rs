@@ -143,7 +143,7 @@ pub trait FirstOrderAtStages<E, const W: usize, S: System, T: Real>: FirstOrder<
 }
 
 impl<K: FirstOrder<S, T>, const W: usize, S: System, T: Real> FirstOrderAtStages<OneByOne, W, S, T> for K {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn evaluate_at_stages(
         equations: &mut Self::Equations,
         at: &AtStages<'_, W, S, T>,

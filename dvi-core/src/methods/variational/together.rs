@@ -70,10 +70,11 @@ where
                 for (kept, now) in kept.iter_mut().zip(now.iter()) {
                     kept.copy_from_slice(now);
                 }
-                let [q, p, force] = &mut *now;
                 wide_if!(true, {
-                    // Copies: what is outside would be looked up again after each store.
+                    // Copies, and one pointer to all vectors: what is outside would be looked up again after
+                    // each store.
                     let (clock, [h, half]) = (clock, [h, half]);
+                    let [q, p, force] = &mut *now;
                     for step in taken..taken + steps {
                         for (((q, p), &force), &reciprocal) in
                             q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals.iter())
@@ -88,6 +89,7 @@ where
                     }
                 });
                 // A collision shows in the force, which is in the momentum.
+                let [q, p, _] = &*now;
                 if !(all_finite(q) && all_finite(p)) {
                     for (now, kept) in now.iter_mut().zip(kept.iter()) {
                         now.copy_from_slice(kept);

@@ -22,7 +22,7 @@ use crate::{NondegenerateLagrangian, Real, Space, Vector};
 
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
 /// good point.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(super) fn steps<S: NondegenerateLagrangian<T>, T: Real>(
     system: &S,
     Carried { phase, inertial: Inertial { mass, .. }, work }: &mut Carried<S, T>,
