@@ -19,8 +19,8 @@ struct Light {
     mass: f64,
 }
 
-/// With ẋ = ẏ and ż = 2ẋ there is one velocity u along (1, 1, 2) left, that nearest to the given one: (m +
-/// 5)u = m ẋ + ẏ + 2ż.
+/// With ẋ = ẏ and ż = 2ẋ there is one velocity u along (1, 1, 2) left, that nearest to the given one:
+/// (m + 5)u = m ẋ + ẏ + 2ż.
 #[test]
 fn a_light_coordinate_is_projected() -> Outcome {
     for mass in [1e6, 1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-16, 1e-18, 1e-30] {

@@ -63,6 +63,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
 
     /// Sets `out` to X at the points in the lanes of `q`, at the times in those of `t`, bit for bit as
     /// [`evaluate`](Self::evaluate) finds them one by one. What comes with `vector`, one lane, is storage.
+    // Apart from a step it would not be compiled for the instructions of that: a step of four vortices with
+    // four stages takes a third longer then (`cargo bench -p dvi-benches --bench lanes`).
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn evaluate_in_lanes<const W: usize>(
         &mut self,
